@@ -38,6 +38,11 @@ impl Symmetric {
         self.entries[i * self.n + i] += x;
     }
 
+    /// Multiplies all entries.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.entries.iter_mut().for_each(|x| *x *= factor);
+    }
+
     /// The rows and columns of some indices.
     pub(crate) fn part(&self, indices: &[usize]) -> Self {
         let mut part = Self::zero(indices.len());

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::blind::{Blind, blind_directions};
 use crate::known::{Estimate, Known, Options};
 use crate::pose::Fibre;
-use crate::solve::{Job, Measured, measure, run, shared_information};
+use crate::solve::{Job, Minimum, run, shared_information};
 use crate::start::elements;
 use crate::unknowns::Unknowns;
 
@@ -69,8 +69,10 @@ pub struct Fit {
     pub iterations: usize,
 }
 
-/// Fibres in a chunk: enough to fill the lanes, few enough for all threads.
-const CHUNK: usize = 16;
+/// Chunks per thread, of at least so many fibres: few chunks keep lanes full, since the last fibres of a chunk may take a hundred times the steps of others
+/// and go on alone.
+const CHUNKS_PER_THREAD: usize = 2;
+const SMALLEST_CHUNK: usize = 16;
 
 /// Fits fibres, on all threads of the current pool.
 ///
@@ -106,24 +108,20 @@ pub fn fit(
     }
     let mut chunks: Vec<(usize, Vec<(usize, Job<'_>)>)> = Vec::new();
     for (elements, mut group) in groups {
+        let share = group.len().div_ceil(CHUNKS_PER_THREAD * rayon::current_num_threads());
+        let size = share.max(SMALLEST_CHUNK);
         while !group.is_empty() {
-            let rest = group.split_off(CHUNK.min(group.len()));
+            let rest = group.split_off(size.min(group.len()));
             chunks.push((elements, std::mem::replace(&mut group, rest)));
         }
     }
     let found: Result<Vec<Vec<(usize, Fit)>>, Cancelled> = chunks
         .into_par_iter()
         .map(|(elements, chunk)| {
-            stage.check()?;
             let (order, mut jobs): (Vec<usize>, Vec<Job<'_>>) = chunk.into_iter().unzip();
-            run(&mut jobs, elements, options.knots);
-            let measured = measure(&mut jobs, elements, options.knots);
-            let fits = order.into_iter().zip(jobs.iter().zip(measured));
-            let fits = fits.map(|(i, (job, measured))| {
-                stage.advance();
-                (i, Fit::of(job, measured, elements))
-            });
-            Ok(fits.collect())
+            run(&mut jobs, elements, options.knots, &stage)?;
+            let fits = order.into_iter().zip(&jobs);
+            Ok(fits.map(|(i, job)| (i, Fit::of(job, elements))).collect())
         })
         .collect();
     let mut found: Vec<(usize, Fit)> = found?.into_iter().flatten().collect();
@@ -132,16 +130,16 @@ pub fn fit(
 }
 
 impl Fit {
-    fn of(job: &Job<'_>, measured: Option<Measured>, elements: usize) -> Self {
-        let (Some(best), Some(measured)) = (&job.best, measured) else {
+    fn of(job: &Job<'_>, elements: usize) -> Self {
+        let Some(Minimum { at, converged }) = &job.best else {
             return Self::none(job, elements);
         };
         let layout = job.layout;
-        let information = job.information(&best.unknowns, &measured.data);
+        let information = job.information(&at.unknowns, &at.beside.data);
         let Some(factor) = information.cholesky() else { return Self::none(job, elements) };
         let covariance = factor.inverse();
-        let turned = best.unknowns.clone().with_positive_curvature();
-        let sign = if best.unknowns.mean_strain().0 < 0.0 { -1.0 } else { 1.0 };
+        let turned = at.unknowns.clone().with_positive_curvature();
+        let sign = if at.unknowns.mean_strain().0 < 0.0 { -1.0 } else { 1.0 };
         // Means over the knots as combinations of the unknowns.
         let share = (layout.knots as f64).recip();
         let combination = |first: usize, weight: f64| {
@@ -177,10 +175,10 @@ impl Fit {
                 .map(|(value, unknown)| Estimate { value, deviation: deviation(unknown) })
         };
         let states = 0..layout.states;
-        let square = measured.data.square;
+        let square = at.beside.data.square;
         let misfit = job.given_noise() && job.misfits(square);
         Self {
-            status: match (best.converged, misfit) {
+            status: match (*converged, misfit) {
                 (false, _) => FitStatus::NotConverged,
                 (true, true) => FitStatus::Misfit,
                 (true, false) => FitStatus::Fitted,
@@ -204,7 +202,7 @@ impl Fit {
             noise: job.noise,
             reduced_square: square / job.degrees(),
             roots: roots(job, &turned),
-            lines: measured.lines,
+            lines: at.beside.lines.clone(),
             elements,
             iterations: job.iterations,
         }

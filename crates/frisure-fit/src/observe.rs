@@ -58,6 +58,13 @@ impl Normal {
         Self { square: 0.0, gradient: vec![0.0; n], matrix: Symmetric::zero(n) }
     }
 
+    /// All of it in another unit.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.square *= factor;
+        self.gradient.iter_mut().for_each(|x| *x *= factor);
+        self.matrix.scale(factor);
+    }
+
     /// Adds that an unknown has this distance from what is known of it, with this deviation.
     pub(crate) fn add_prior(&mut self, unknown: usize, distance: f64, deviation: f64) {
         let weight = deviation.powi(-2);
@@ -127,6 +134,57 @@ impl<'a> Piece<'a> {
     }
 }
 
+/// Sums of products of vectors over points: of each with the rest, and of each with those up to it.
+struct Products {
+    count: usize,
+    square: f64,
+    with_rest: Vec<f64>,
+    /// By rows.
+    pairs: Vec<f64>,
+    /// The vectors of the present point, coordinate by coordinate.
+    coordinates: [Vec<f64>; 3],
+}
+
+impl Products {
+    fn new(count: usize) -> Self {
+        let zeros = || vec![0.0; count];
+        let pairs = vec![0.0; count * count];
+        let coordinates = [zeros(), zeros(), zeros()];
+        Self { count, square: 0.0, with_rest: zeros(), pairs, coordinates }
+    }
+
+    /// Adds those of a point, each vector as `seen`.
+    fn add(&mut self, rest: DVec3, vectors: &[DVec3], seen: impl Fn(DVec3) -> DVec3) {
+        let n = self.count;
+        let rest = seen(rest);
+        self.square += rest.length_squared();
+        let [xs, ys, zs] = &mut self.coordinates;
+        for (i, vector) in vectors.iter().enumerate() {
+            let vector = seen(*vector);
+            self.with_rest[i] += vector.dot(rest);
+            (xs[i], ys[i], zs[i]) = (vector.x, vector.y, vector.z);
+        }
+        for (i, row) in self.pairs.chunks_exact_mut(n).enumerate() {
+            let (x, y, z) = (xs[i], ys[i], zs[i]);
+            let others = xs.iter().zip(ys.iter()).zip(zs.iter());
+            for (sum, ((a, b), c)) in row.iter_mut().zip(others).take(i + 1) {
+                *sum += x * a + y * b + z * c;
+            }
+        }
+    }
+
+    /// Adds the sums to those of a fibre, of which they are some rows and columns.
+    fn add_to(&self, index: &[usize], sums: &mut Normal) {
+        sums.square += self.square;
+        for (a, &i) in index.iter().enumerate() {
+            sums.gradient[i] += self.with_rest[a];
+            for (b, &k) in index.iter().enumerate().take(a + 1) {
+                sums.matrix.add(i, k, self.pairs[a * self.count + b]);
+            }
+        }
+    }
+}
+
 /// The rods of some fibres, and how they move.
 pub(crate) struct Rods<'a> {
     pub(crate) tangents: &'a BatchTangents,
@@ -185,36 +243,30 @@ impl Rods<'_> {
         let unknowns = self.columns(pose, state);
         let longer = unknowns.len() - 4;
         let weight = self.noise.recip();
-        let mut columns = vec![DVec3::ZERO; unknowns.len() + 3];
         let place_of = layout.pose(pose);
         let index: Vec<usize> = unknowns.iter().copied().chain(place_of..place_of + 3).collect();
+        let mut moved = vec![DVec3::ZERO; index.len()];
+        moved[unknowns.len()..].copy_from_slice(&DVec3::AXES);
+        let mut products = Products::new(index.len());
         for (j, (point, fraction)) in observed.points.iter().zip(&observed.fractions).enumerate() {
             let place = Place::at(*fraction, self.tangents.elements);
             let pair = place.element..place.element + 2;
             let piece = Piece::new(&nodes[pair.clone()], spacing);
-            let mut rest = (piece.value(&place.weights) - *point) * weight;
-            for (k, column) in columns.iter_mut().take(unknowns.len()).enumerate() {
+            let rest = piece.value(&place.weights) - *point;
+            for (k, moved) in moved.iter_mut().take(unknowns.len()).enumerate() {
                 let motions = &self.tangents.motions(rod, k)[pair.clone()];
                 let by_length = if k == longer { 1.0 } else { 0.0 };
-                *column = piece.moved(&place.weights, motions, by_length) * weight;
+                *moved = piece.moved(&place.weights, motions, by_length);
             }
-            let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * weight);
-            columns[unknowns.len()..].copy_from_slice(&axes);
-            if !observed.whole(j) {
+            if observed.whole(j) {
+                products.add(rest, &moved, |v| v * weight);
+            } else {
                 // The place of the point along the line is free.
                 let tangent = piece.value(&place.slopes).normalize_or_zero();
-                let across = |v: DVec3| v - tangent * tangent.dot(v);
-                rest = across(rest);
-                columns.iter_mut().for_each(|column| *column = across(*column));
-            }
-            sums.square += rest.length_squared();
-            for (a, &i) in index.iter().enumerate() {
-                sums.gradient[i] += columns[a].dot(rest);
-                for (b, &k) in index.iter().enumerate().take(a + 1) {
-                    sums.matrix.add(i, k, columns[a].dot(columns[b]));
-                }
+                products.add(rest, &moved, |v| (v - tangent * tangent.dot(v)) * weight);
             }
         }
+        products.add_to(&index, sums);
     }
 
     /// The unknown of each direction of [`crate::unknowns::directions`].

@@ -1,7 +1,8 @@
 //! Levenberg–Marquardt for many fibres at once: their rods are solved and differentiated together, in the lanes of SIMD vectors.
 
-use frisure_rod::Rod;
-use frisure_rod::batch::{Batch, Direction};
+use frisure_progress::{Cancelled, StageCounter};
+use frisure_rod::batch::{Batch, BatchSolution, BatchTangents, Direction};
+use frisure_rod::{Rod, Stability};
 use glam::DVec3;
 
 use crate::dense::Symmetric;
@@ -14,8 +15,12 @@ use crate::unknowns::{Layout, OF_POSE, Unknowns, directions};
 /// Relative gradient of rods at rest: derivatives need 1e-9.
 const AT_REST: f64 = 5e-10;
 
-/// Most steps of a rod, and of a fit from one start. Guards; 6 to 15 are usual.
-const ROD_STEPS: usize = 100;
+/// Most steps of a rod side by side with others, and of one by itself. Rods near where they were need 4, and 97 of 100 at most 10: one that needs more keeps the
+/// others of its lanes waiting.
+const STEPS_SIDE_BY_SIDE: usize = 16;
+const STEPS_ALONE: usize = 100;
+
+/// Most steps of a fit from one start. A guard; 6 to 15 are usual.
 const FIT_STEPS: usize = 120;
 
 /// First damping, the least one, the factor by which it falls at most, and that at which a fit is given up. A first fall by more than Nielsen's third saves a step.
@@ -59,8 +64,10 @@ pub(crate) struct Job<'a> {
 
 /// A place at which a fit has arrived, and where it tries to go.
 struct Iterate {
-    at: Option<(Unknowns, Normal, Vec<DVec3>, Vec<Observed>)>,
+    at: Option<Arrival>,
     trial: Unknowns,
+    /// Turns of joints (rad) near which the rods of the first trial come to rest; empty for none.
+    near: Vec<DVec3>,
     damping: f64,
     /// Factor by which the damping grows next, and the decrease that the last step promised.
     growth: f64,
@@ -69,8 +76,9 @@ struct Iterate {
 }
 
 impl Iterate {
-    fn from(trial: Unknowns) -> Self {
-        Self { at: None, trial, damping: FIRST_DAMPING, growth: 2.0, promised: 0.0, steps: 0 }
+    fn from(trial: Unknowns, near: Vec<DVec3>) -> Self {
+        let (damping, growth) = (FIRST_DAMPING, 2.0);
+        Self { at: None, trial, near, damping, growth, promised: 0.0, steps: 0 }
     }
 
     /// The damping after a step that lowered the square by `decrease`, or did not. Nielsen 1999, *Damping parameter in Marquardt's method*.
@@ -90,21 +98,20 @@ impl Iterate {
     }
 }
 
+/// Unknowns of a fibre whose rods are at rest, and the measured points beside them.
+#[derive(Clone)]
+pub(crate) struct Arrival {
+    pub(crate) unknowns: Unknowns,
+    /// The distance with what is known, and that of the points alone.
+    normal: Normal,
+    pub(crate) beside: Beside,
+}
+
 /// A minimum of the distance.
 #[derive(Clone)]
 pub(crate) struct Minimum {
-    pub(crate) unknowns: Unknowns,
-    /// Square of the distance with what is known, in units of the noise.
-    pub(crate) square: f64,
-    pub(crate) controls: Vec<DVec3>,
-    pub(crate) observed: Vec<Observed>,
+    pub(crate) at: Arrival,
     pub(crate) converged: bool,
-}
-
-/// A fibre at its minimum: the distance of the points alone, and the points on the rods (m) in the axes of each pose.
-pub(crate) struct Measured {
-    pub(crate) data: Normal,
-    pub(crate) lines: Vec<Vec<DVec3>>,
 }
 
 impl<'a> Job<'a> {
@@ -135,13 +142,13 @@ impl<'a> Job<'a> {
             given_noise: noise.is_some(),
             expected,
             next: 1,
-            iterate: Iterate::from(trial.clone()),
+            iterate: Iterate::from(trial.clone(), Vec::new()),
             best: None,
             iterations: 0,
             done: false,
             polished: false,
         };
-        job.begin(trial);
+        job.begin(trial, Vec::new());
         job
     }
 
@@ -172,11 +179,11 @@ impl<'a> Job<'a> {
         square > degrees + MISFIT * (2.0 * degrees).sqrt()
     }
 
-    fn begin(&mut self, trial: Unknowns) {
+    fn begin(&mut self, trial: Unknowns, near: Vec<DVec3>) {
         for observed in self.observed.iter_mut().filter(|observed| !observed.placed) {
             observed.fractions = by_chords(&observed.points);
         }
-        self.iterate = Iterate::from(trial);
+        self.iterate = Iterate::from(trial, near);
     }
 
     /// The rods of some unknowns; `None`, if they make none.
@@ -206,10 +213,12 @@ impl<'a> Job<'a> {
     }
 
     /// After the trial was computed: `None`, if it makes no rod at rest.
-    fn decide(&mut self, normal: Option<Normal>, controls: &[DVec3], observed: Vec<Observed>) {
+    fn decide(&mut self, found: Option<Beside>) {
         self.iterations += 1;
         self.iterate.steps += 1;
-        let before = self.iterate.at.as_ref().map(|(_, before, _, _)| before.square);
+        let before = self.iterate.at.as_ref().map(|at| at.normal.square);
+        let trial = &self.iterate.trial;
+        let normal = found.as_ref().map(|beside| self.with_priors(trial, &beside.data));
         let square = normal.as_ref().map_or(f64::INFINITY, |normal| normal.square);
         let lower = square < before.unwrap_or(f64::INFINITY);
         match (lower, before) {
@@ -217,11 +226,11 @@ impl<'a> Job<'a> {
             (true, None) => {}
             (false, _) => self.iterate.adapt(None),
         }
-        if let Some(normal) = normal.filter(|_| lower) {
-            let trial = self.iterate.trial.clone();
-            self.iterate.at = Some((trial, normal, controls.to_vec(), observed));
+        if let Some((normal, beside)) = normal.zip(found).filter(|_| lower) {
+            let unknowns = self.iterate.trial.clone();
+            self.iterate.at = Some(Arrival { unknowns, normal, beside });
         }
-        let Some((at, normal, _, _)) = &self.iterate.at else {
+        let Some(Arrival { unknowns: at, normal, .. }) = &self.iterate.at else {
             self.finish(false);
             return;
         };
@@ -257,31 +266,36 @@ impl<'a> Job<'a> {
 
     /// The end of the fit from one start.
     fn finish(&mut self, converged: bool) {
-        if let Some((unknowns, normal, controls, observed)) = self.iterate.at.take() {
-            let square = normal.square;
-            if self.best.as_ref().is_none_or(|best| square < best.square || self.polished) {
-                self.best = Some(Minimum { unknowns, square, controls, observed, converged });
+        if let Some(at) = self.iterate.at.take() {
+            let square = at.normal.square;
+            if self.best.as_ref().is_none_or(|best| square < best.at.normal.square || self.polished)
+            {
+                self.best = Some(Minimum { at, converged });
             }
         }
-        let misfits = self.best.as_ref().is_none_or(|best| self.misfits(best.square));
+        let misfits = self.best.as_ref().is_none_or(|best| self.misfits(best.at.normal.square));
         if misfits
             && !self.polished
             && let Some(start) = start(self.fibre, &self.observed, &self.expected, self.next)
         {
             self.next += 1;
-            self.begin(start);
+            self.begin(start, Vec::new());
             return;
         }
+        let degrees = self.degrees();
         if !self.given_noise
             && !self.polished
-            && let Some(best) = self.best.clone()
+            && let Some(Minimum { at, .. }) = &mut self.best
         {
             // What is left over is the noise: once more with it, since it weighs what is known.
             self.polished = true;
-            let factor = (best.square / self.degrees()).sqrt().max(1e-6);
-            self.noise = (self.noise * factor).max(1e-12);
-            self.begin(best.unknowns);
-            self.observed = best.observed;
+            let factor = (at.normal.square / degrees).sqrt().max(1e-6);
+            let noise = (self.noise * factor).max(1e-12);
+            at.beside.data.scale((self.noise / noise).powi(2));
+            self.noise = noise;
+            let (unknowns, beside) = (at.unknowns.clone(), at.beside.clone());
+            self.begin(unknowns, beside.controls);
+            self.observed = beside.observed;
             return;
         }
         self.done = true;
@@ -331,65 +345,53 @@ fn by_chords(points: &[DVec3]) -> Vec<f64> {
     fractions.iter().map(|s| s / sum).collect()
 }
 
-/// Fits fibres whose rods have the same number of elements.
-pub(crate) fn run(jobs: &mut [Job<'_>], elements: usize, knots: usize) {
-    let solver = Solver::new(elements, knots);
-    while jobs.iter().any(|job| !job.done) {
-        let trials: Vec<Trial> = (jobs.iter().enumerate())
-            .filter(|(_, job)| !job.done)
-            .map(|(index, job)| {
-                let near = job.iterate.at.as_ref().map(|(_, _, controls, _)| controls.clone());
-                let unknowns = job.iterate.trial.clone();
-                Trial { index, unknowns, near: near.unwrap_or_default() }
-            })
-            .collect();
-        for (trial, found) in trials.iter().zip(solver.evaluate(jobs, &trials, false)) {
-            let job = &mut jobs[trial.index];
-            let normal = found.data.map(|data| job.with_priors(&trial.unknowns, &data));
-            job.decide(normal, &found.controls, found.observed);
-        }
-    }
-}
+/// Fibres that are fitted side by side. The next one takes the place of one that is done, so that lanes stay full where a few fibres take far more steps than
+/// others. Chosen by trial.
+const SIDE_BY_SIDE: usize = 64;
 
-/// The distance of the points at the minimum of each fibre, without what is known besides, and the lines; `None` without a minimum.
-pub(crate) fn measure(
+/// Fibres whose rods are differentiated at once: their motions stay in the cache of a processor. Chosen by trial.
+const AT_ONCE: usize = 16;
+
+/// Fits fibres whose rods have the same number of elements. `stage` counts those that are done.
+pub(crate) fn run(
     jobs: &mut [Job<'_>],
     elements: usize,
     knots: usize,
-) -> Vec<Option<Measured>> {
-    let trials: Vec<Trial> = (jobs.iter().enumerate())
-        .filter_map(|(index, job)| {
-            let best = job.best.as_ref()?;
-            Some(Trial { index, unknowns: best.unknowns.clone(), near: best.controls.clone() })
-        })
-        .collect();
-    for job in jobs.iter_mut() {
-        if let Some(best) = &job.best {
-            job.observed.clone_from(&best.observed);
+    stage: &StageCounter<'_>,
+) -> Result<(), Cancelled> {
+    let solver = Solver::new(elements, knots);
+    let mut running: Vec<usize> = Vec::new();
+    let mut waiting = 0..jobs.len();
+    loop {
+        stage.check()?;
+        running.retain(|&index| {
+            let done = jobs[index].done;
+            if done {
+                stage.advance();
+            }
+            !done
+        });
+        let free = SIDE_BY_SIDE - running.len();
+        running.extend(waiting.by_ref().take(free));
+        if running.is_empty() {
+            return Ok(());
+        }
+        for (&index, found) in running.iter().zip(solver.evaluate(jobs, &running)) {
+            jobs[index].decide(found);
         }
     }
-    let mut measured: Vec<Option<Measured>> = jobs.iter().map(|_| None).collect();
-    let found = Solver::new(elements, knots).evaluate(jobs, &trials, true);
-    for (trial, found) in trials.iter().zip(found) {
-        measured[trial.index] = found.data.map(|data| Measured { data, lines: found.lines });
-    }
-    measured
 }
 
-/// Unknowns of a fibre to be tried, and turns of joints (rad) near which its rods come to rest; empty for none.
-struct Trial {
-    index: usize,
-    unknowns: Unknowns,
-    near: Vec<DVec3>,
-}
-
-/// The points of a fibre beside the rods of a trial; no data, if the trial makes no rods at rest.
-#[derive(Default)]
-struct Evaluation {
-    data: Option<Normal>,
+/// The points of a fibre beside its rods at rest.
+#[derive(Clone)]
+pub(crate) struct Beside {
+    /// The distance of the points alone.
+    pub(crate) data: Normal,
+    /// Turns of the joints of all rods (rad).
     controls: Vec<DVec3>,
-    observed: Vec<Observed>,
-    lines: Vec<Vec<DVec3>>,
+    pub(crate) observed: Vec<Observed>,
+    /// The points on the rods (m), in the axes of each pose.
+    pub(crate) lines: Vec<Vec<DVec3>>,
 }
 
 /// Rods of one number of elements, and the directions in which they are differentiated.
@@ -400,56 +402,94 @@ struct Solver {
 
 impl Solver {
     fn new(elements: usize, knots: usize) -> Self {
-        let batch =
-            Batch { elements, tolerance: AT_REST, max_iterations: ROD_STEPS, ..Batch::default() };
+        let batch = Batch {
+            elements,
+            tolerance: AT_REST,
+            max_iterations: STEPS_SIDE_BY_SIDE,
+            ..Batch::default()
+        };
         Self { batch, directions: directions(knots, elements) }
     }
 
-    /// Solves the rods of trials side by side, and adds up the points of each fibre.
-    fn evaluate(&self, jobs: &[Job<'_>], trials: &[Trial], lines: bool) -> Vec<Evaluation> {
+    /// Solves the rods of the trials of some jobs side by side, and adds up the points of each; `None`, if a trial makes no rods at rest.
+    fn evaluate(&self, jobs: &[Job<'_>], running: &[usize]) -> Vec<Option<Beside>> {
         let elements = self.batch.elements;
-        let (mut rods, mut controls, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
-        for trial in trials {
-            let made = jobs[trial.index].rods(&trial.unknowns);
-            firsts.push(made.as_ref().map(|_| rods.len()));
-            for (pose, rod) in made.into_iter().flatten().enumerate() {
-                match trial.near.get(pose * elements..(pose + 1) * elements) {
+        let (mut rods, mut controls, mut ranges) = (Vec::new(), Vec::new(), Vec::new());
+        let mut fresh = Vec::new();
+        for &index in running {
+            let Iterate { at, trial, near, .. } = &jobs[index].iterate;
+            let near = at.as_ref().map_or(near, |at| &at.beside.controls);
+            let first = rods.len();
+            for (pose, rod) in jobs[index].rods(trial).into_iter().flatten().enumerate() {
+                match near.get(pose * elements..(pose + 1) * elements) {
                     Some(near) => controls.extend_from_slice(near),
-                    None => controls.resize(controls.len() + elements, DVec3::ZERO),
+                    None => {
+                        fresh.push(rods.len());
+                        controls.resize(controls.len() + elements, DVec3::ZERO);
+                    }
                 }
                 rods.push(rod);
             }
+            ranges.push(first..rods.len());
         }
-        let found = self.batch.solve_from(&rods, controls);
-        let tangents = self.batch.jvp(&rods, &found, &self.directions);
-        let one = |(trial, first): (&Trial, Option<usize>)| {
-            let job = &jobs[trial.index];
-            let poses = job.fibre.poses();
-            let Some(first) = first.filter(|&first| {
-                tangents.existence[first..first + poses.len()].iter().all(Result::is_ok)
-            }) else {
-                return Evaluation::default();
+        let mut found = self.batch.solve_near(&rods, controls);
+        self.bring_to_rest(&rods, &fresh, &mut found);
+        let mut beside = Vec::with_capacity(running.len());
+        for (running, ranges) in running.chunks(AT_ONCE).zip(ranges.chunks(AT_ONCE)) {
+            let all = ranges[0].start..ranges[ranges.len() - 1].end;
+            let part = BatchSolution {
+                elements,
+                controls: found.controls[all.start * elements..all.end * elements].to_vec(),
+                rods: found.rods[all.clone()].to_vec(),
             };
-            let rods = Rods { tangents: &tangents, first, layout: job.layout, noise: job.noise };
-            let before = job.iterate.at.as_ref().map_or(&job.observed, |(_, _, _, seen)| seen);
-            let mut observed = before.clone();
-            let mut data = Normal::zero(job.layout.len());
-            let mut of_fibre = Vec::new();
-            for (p, pose) in poses.iter().enumerate() {
-                let spacing = spacing(&trial.unknowns, pose, elements);
-                rods.place(p, spacing, &mut observed[p]);
-                rods.add(p, pose.state(), spacing, &observed[p], &mut data);
-                if lines {
-                    let back = observed[p].turn.inverse();
-                    let line = rods.line(p, spacing, &observed[p]);
-                    of_fibre.push(line.into_iter().map(|x| back * x).collect());
-                }
-            }
-            let range = first * elements..(first + poses.len()) * elements;
-            let controls = found.controls[range].to_vec();
-            Evaluation { data: Some(data), controls, observed, lines: of_fibre }
-        };
-        trials.iter().zip(firsts).map(one).collect()
+            let tangents = self.batch.jvp(&rods[all.clone()], &part, &self.directions);
+            beside.extend(running.iter().zip(ranges).map(|(&index, range)| {
+                let of_part = range.start - all.start..range.end - all.start;
+                let exist = tangents.existence[of_part.clone()].iter().all(Result::is_ok);
+                let controls = &part.controls[of_part.start * elements..of_part.end * elements];
+                (exist && !range.is_empty())
+                    .then(|| self.compare(&jobs[index], of_part.start, &tangents, controls))
+            }));
+        }
+        beside
+    }
+
+    /// The points of a job beside the rods of its trial, the first of which has the index `first`.
+    fn compare(
+        &self,
+        job: &Job<'_>,
+        first: usize,
+        tangents: &BatchTangents,
+        controls: &[DVec3],
+    ) -> Beside {
+        let rods = Rods { tangents, first, layout: job.layout, noise: job.noise };
+        let before = job.iterate.at.as_ref().map_or(&job.observed, |at| &at.beside.observed);
+        let mut observed = before.clone();
+        let mut data = Normal::zero(job.layout.len());
+        let mut lines = Vec::new();
+        for (p, pose) in job.fibre.poses().iter().enumerate() {
+            let spacing = spacing(&job.iterate.trial, pose, self.batch.elements);
+            rods.place(p, spacing, &mut observed[p]);
+            rods.add(p, pose.state(), spacing, &observed[p], &mut data);
+            let back = observed[p].turn.inverse();
+            let line = rods.line(p, spacing, &observed[p]);
+            lines.push(line.into_iter().map(|x| back * x).collect());
+        }
+        Beside { data, controls: controls.to_vec(), observed, lines }
+    }
+
+    /// Brings rods to rest that started at their natural shapes and did not come to rest, along gravity's branch. A rod that was near another one is left:
+    /// the step of its fibre was too long, and a shorter one costs less.
+    fn bring_to_rest(&self, rods: &[Rod], fresh: &[usize], found: &mut BatchSolution) {
+        let n = self.batch.elements;
+        let lost = fresh.iter().copied();
+        let lost = lost.filter(|&rod| found.rods[rod].stability == Stability::NotConverged);
+        let alone = Batch { max_iterations: STEPS_ALONE, ..self.batch };
+        for rod in lost.collect::<Vec<_>>() {
+            let along = alone.solve(&rods[rod..=rod]);
+            found.rods[rod] = along.rods[0];
+            found.controls[rod * n..(rod + 1) * n].copy_from_slice(&along.controls);
+        }
     }
 }
 

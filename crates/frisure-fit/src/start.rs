@@ -110,28 +110,13 @@ impl Polyline {
 /// The twist (rad per piece) and the angle at the start (rad) of frames in which bending is most about d1, and how much it is there (rad per piece):
 /// a peak of the spectrum of the bending, the highest of which has the rank 0.
 fn twist_of(bends: &[(f64, f64)], rank: usize) -> (f64, f64, f64) {
-    let sum = |twist: f64| {
-        // exp(−i k twist) by products: a sine and a cosine for each twist alone.
-        let (sin, cos) = twist.sin_cos();
-        let (mut c, mut s) = (1.0, 0.0);
-        bends.iter().fold((0.0, 0.0), |(x, y), b| {
-            let sum = (x + b.0 * c + b.1 * s, y + b.1 * c - b.0 * s);
-            (c, s) = (c * cos - s * sin, s * cos + c * sin);
-            sum
-        })
-    };
     let count = bends.len().max(1) as f64;
     // Peaks are 2π/count wide.
     let step = TAU / (4.0 * count);
     let tries = (LARGEST_TWIST / step) as i32;
     let twists: Vec<f64> = (-tries..=tries).map(|k| step * f64::from(k)).collect();
-    let strengths: Vec<f64> = twists
-        .iter()
-        .map(|twist| {
-            let (x, y) = sum(*twist);
-            x.hypot(y)
-        })
-        .collect();
+    let sums = spectrum(bends, &twists);
+    let strengths: Vec<f64> = sums.iter().map(|(x, y)| (x * x + y * y).sqrt()).collect();
     let mut peaks: Vec<usize> = (0..twists.len())
         .filter(|&k| {
             (k == 0 || strengths[k] >= strengths[k - 1])
@@ -142,8 +127,24 @@ fn twist_of(bends: &[(f64, f64)], rank: usize) -> (f64, f64, f64) {
     let Some(&peak) = peaks.get(rank.min(peaks.len().saturating_sub(1))) else {
         return (0.0, 0.0, 0.0);
     };
-    let (x, y) = sum(twists[peak]);
-    (twists[peak], y.atan2(x), x.hypot(y) / count)
+    let (x, y) = sums[peak];
+    (twists[peak], y.atan2(x), strengths[peak] / count)
+}
+
+/// The sum over k of bends as complex numbers times exp(−i k twist), for each twist: by products, with a sine and a cosine for each twist alone, and all twists
+/// side by side.
+fn spectrum(bends: &[(f64, f64)], twists: &[f64]) -> Vec<(f64, f64)> {
+    let steps: Vec<(f64, f64)> = twists.iter().map(|twist| twist.sin_cos()).collect();
+    let mut phases = vec![(0.0, 1.0); twists.len()];
+    let mut sums = vec![(0.0, 0.0); twists.len()];
+    for &(a, b) in bends {
+        for (((x, y), (s, c)), (sin, cos)) in sums.iter_mut().zip(&mut phases).zip(&steps) {
+            *x += a * *c + b * *s;
+            *y += b * *c - a * *s;
+            (*c, *s) = (*c * cos - *s * sin, *s * cos + *c * sin);
+        }
+    }
+    sums
 }
 
 /// Points that are taken together, so that the direction between their means is told well enough.

@@ -12,6 +12,7 @@ use super::start::InitialShape;
 use super::weight_lanes::WeightLanes;
 use crate::centre_line::Node;
 use crate::equilibrium::{Options, equilibrium};
+use crate::minimise::Stability;
 use crate::resolution::{ElementKind, Resolution};
 use crate::rod::Rod;
 use crate::strain::NaturalStrain;
@@ -68,7 +69,26 @@ impl Batch {
     /// # Panics
     /// If there are no elements, or not as many turns as joints.
     #[must_use]
-    pub fn solve_from(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> BatchSolution {
+    pub fn solve_from(&self, rods: &[Rod], controls: Vec<DVec3>) -> BatchSolution {
+        let n = self.elements;
+        let mut found = self.solve_near(rods, controls);
+        // What did not converge, by the scalar solver.
+        for (rod, solution) in found.rods.iter_mut().enumerate() {
+            if solution.stability == Stability::NotConverged {
+                let before = solution.iterations;
+                *solution = self.fall_back(&rods[rod], &mut found.controls[rod * n..(rod + 1) * n]);
+                solution.iterations += before;
+            }
+        }
+        found
+    }
+
+    /// As [`Self::solve_from`], but a rod that does not converge is returned as it is.
+    ///
+    /// # Panics
+    /// As [`Self::solve_from`].
+    #[must_use]
+    pub fn solve_near(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> BatchSolution {
         let n = self.elements;
         self.check(rods, &controls);
         let mut results = vec![LaneResult::default(); rods.len()];
@@ -86,19 +106,11 @@ impl Batch {
         // 2. In double precision, from there or from the start.
         let job = self.job(rods, &mut controls, &mut results);
         dispatch!(Level::new(), simd => in_weight(f64s(simd), uniform, job));
-        // 3. What did not converge, by the scalar solver.
-        let solutions = (results.iter().zip(&before).enumerate())
-            .map(|(rod, (result, before))| {
-                let mut found = match result.converged {
-                    true => result.solution(),
-                    false => self.fall_back(&rods[rod], &mut controls[rod * n..(rod + 1) * n]),
-                };
-                let so_far = if result.converged { 0 } else { result.iterations };
-                found.iterations += so_far + before;
-                found
-            })
-            .collect();
-        BatchSolution { elements: n, controls, rods: solutions }
+        let solutions = results.iter().zip(&before).map(|(result, before)| {
+            let found = result.solution();
+            RodSolution { iterations: found.iterations + before, ..found }
+        });
+        BatchSolution { elements: n, controls, rods: solutions.collect() }
     }
 
     /// The equilibria of rods in contact, in double precision always; the first rod has the index `first` in the

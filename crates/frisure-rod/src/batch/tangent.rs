@@ -13,7 +13,7 @@ use super::solver::{Batch, f64s, uniform};
 use super::tangent_sweep::{TangentBundle, TangentDirection};
 use crate::chain::Chain;
 use crate::derivatives::{DerivativeError, ParameterChange, Sensitivity};
-use crate::minimise::Problem;
+use crate::minimise::{Problem, Stability};
 use crate::resolution::ElementKind;
 use crate::rod::Rod;
 
@@ -192,7 +192,8 @@ fn in_lanes<F: Lanes>(
         }
         // 4. By itself: a rod that is not at rest to rounding, or has no derivatives.
         for (_, rod) in (0..lanes).zip(first..) {
-            if tangents.existence[rod].is_err() {
+            let at_rest = found.rods[rod].stability != Stability::NotConverged;
+            if tangents.existence[rod].is_err() && at_rest {
                 tangents.existence[rod] = alone(&rods[rod], found, rod, directions, tangents);
             }
         }
