@@ -39,6 +39,8 @@ pub struct SkinLook {
     pub colour: Vec3,
     /// Strength of its soft gloss.
     pub gloss: f32,
+    /// Strength of the fine structure of skin, lips and cloth: relief, blotches, freckles, threads. 0 for smooth surfaces, 1 as in a person.
+    pub texture: f32,
     /// How far red light goes beneath the skin (m): the mean distance at which it comes out again is near it. 0 for none.
     pub scatter: f32,
     /// Diffuse reflectance of the irises of a head that has open eyes, linear sRGB.
@@ -46,7 +48,7 @@ pub struct SkinLook {
     /// Diffuse reflectance of the garment of a head that wears one, linear sRGB.
     pub garment: Vec3,
 }
-digest_fields!(SkinLook { colour, gloss, scatter, iris, garment });
+digest_fields!(SkinLook { colour, gloss, texture, scatter, iris, garment });
 
 impl Default for SkinLook {
     /// The matte plastic of a training head.
@@ -54,6 +56,7 @@ impl Default for SkinLook {
         Self {
             colour: Vec3::new(0.40, 0.29, 0.235),
             gloss: 0.12,
+            texture: 0.0,
             // Jensen et al. 2001 (doi:10.1145/383259.383319) measured 3.67 mm for red light in skin.
             scatter: 3.7e-3,
             iris: Vec3::new(0.085, 0.045, 0.022),

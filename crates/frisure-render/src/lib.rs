@@ -15,6 +15,7 @@ mod complexion;
 mod film;
 mod hash;
 pub mod maps;
+mod noise;
 mod picture;
 mod pigment;
 pub mod preview;

@@ -534,6 +534,11 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Strength of the skin's soft gloss; {}. Default 0.12.
         "look.gloss" => number::<Ratio>().range(0.0, 1.0, "between 0 and 1")
             .field(field!(look.skin.gloss));
+        /// Strength of the fine structure of skin, lips and cloth (relief, blotches, freckles, threads), relief in final pictures only; {}. Default 1; 0 for
+        /// smooth surfaces.
+        "look.texture" => number::<Ratio>().range(0.0, 3.0, "between 0 and 3")
+            .field(field!(look.skin.texture))
+            .slider(Panel::Look, "Skin texture", NUMBER, (0.0, 3.0), 2, "How much pores, blotches and freckles are seen.");
         /// Colour of the irises (sRGB) of a head with open eyes. Default: that of the hair type.
         "look.iris" => value::<Colour>();
         /// Colour of the garment (sRGB) of a head that wears one. Default a dark grey.

@@ -99,6 +99,7 @@ impl NaturalLook {
         SkinLook {
             colour: linear_from_srgb(self.skin),
             iris: linear_from_srgb(iris),
+            texture: 1.0,
             ..SkinLook::default()
         }
     }

@@ -81,7 +81,7 @@ impl Head {
             let [a, b, c] = corners.map(|v| features.tints[v]);
             a * weights.x + b * weights.y + c * weights.z
         });
-        complexion::material(features, tint, position, &self.look)
+        complexion::material(features, tint, (position, None), &self.look)
     }
 
     /// Sets the ambient irradiance / π at each vertex.

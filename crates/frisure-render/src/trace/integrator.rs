@@ -153,8 +153,10 @@ impl Integrator {
                 return PathSample { radiance, primary_hit };
             }
             let Some(intersection) = intersection else { return path };
+            let material = self.material_at(&intersection, bounce);
             if bounce == 0 {
-                path.primary_hit = Some(self.primary_hit(&intersection, ray.direction()));
+                let hit = self.primary_hit(&intersection, material.as_ref(), ray.direction());
+                path.primary_hit = Some(hit);
             }
             if bounce == self.max_bounces {
                 return path;
@@ -162,7 +164,7 @@ impl Integrator {
 
             // 3. Light that goes beneath the skin is seen where it comes out.
             let Some(Seen { intersection, bsdf, weight }) =
-                self.seen(intersection, ray.direction(), bounce, sampler)
+                self.seen(intersection, material, (ray.direction(), bounce), sampler)
             else {
                 return path;
             };
@@ -220,7 +222,12 @@ impl Integrator {
             || self.bvh.occluded(ray, distance.min(MAX_DISTANCE))
     }
 
-    fn primary_hit(&self, intersection: &Intersection, direction: Vec3) -> PrimaryHit {
+    fn primary_hit(
+        &self,
+        intersection: &Intersection,
+        material: Option<&Material>,
+        direction: Vec3,
+    ) -> PrimaryHit {
         match intersection {
             Intersection::Hit(Hit::Hair(hit)) => PrimaryHit {
                 t: hit.t,
@@ -228,12 +235,12 @@ impl Integrator {
                 albedo: self.fibres.albedo(hit.strand, hit.segment, hit.u),
                 normal: hit.normal,
             },
-            Intersection::Hit(Hit::Skin(hit)) => PrimaryHit {
-                t: hit.t,
-                object: Object::Skin,
-                albedo: self.material(hit).colour,
-                normal: facing(hit.smooth_normal, -direction),
-            },
+            Intersection::Hit(Hit::Skin(hit)) => {
+                let normal = material.and_then(|material| material.normal);
+                let normal = facing(normal.unwrap_or(hit.smooth_normal), -direction);
+                let albedo = material.map_or(Vec3::ZERO, |material| material.colour);
+                PrimaryHit { t: hit.t, object: Object::Skin, albedo, normal }
+            }
             Intersection::Floor { t, point } => {
                 let floor = self.floor.as_ref().expect("the ray hits it");
                 let object = Object::Floor { faded: floor.background_share(*point) };
@@ -242,34 +249,29 @@ impl Integrator {
         }
     }
 
-    fn bsdf(&self, intersection: &Intersection, direction: Vec3) -> Bsdf<'_> {
-        match intersection {
-            Intersection::Hit(Hit::Hair(hit)) => self.hair_bsdf(hit, direction),
-            Intersection::Hit(Hit::Skin(hit)) => Bsdf::Surface(self.skin_bsdf(hit, -direction)),
-            Intersection::Floor { .. } => {
-                let colour = self.floor.as_ref().map_or(Vec3::ZERO, Floor::colour);
-                Bsdf::Surface(RoughPlastic::new(Vec3::Z, -direction, colour, 0.0, 1.0))
-            }
-        }
-    }
-
     /// What a ray sees at an intersection: of skin either its coat, or a place where light comes out that went in elsewhere.
     fn seen(
         &self,
         intersection: Intersection,
-        direction: Vec3,
-        bounce: u32,
+        material: Option<Material>,
+        (direction, bounce): (Vec3, u32),
         sampler: &mut Sampler,
     ) -> Option<Seen<'_>> {
-        if let Intersection::Hit(Hit::Skin(hit)) = &intersection {
-            let material = self.material(hit);
-            let outside = hit.normal.dot(direction) < 0.0;
-            let deep = self.skin.scatter > 0.0 && material.scatters;
-            if deep && outside && bounce < SCATTERED_BOUNCES {
-                return self.scattered(hit, &material, direction, sampler);
+        let bsdf = match (&intersection, material) {
+            (Intersection::Hit(Hit::Skin(hit)), Some(material)) => {
+                let outside = hit.normal.dot(direction) < 0.0;
+                let deep = self.skin.scatter > 0.0 && material.scatters;
+                if deep && outside && bounce < SCATTERED_BOUNCES {
+                    return self.scattered(hit, &material, direction, sampler);
+                }
+                Bsdf::Surface(skin_bsdf(hit, &material, -direction))
             }
-        }
-        let bsdf = self.bsdf(&intersection, direction);
+            (Intersection::Hit(Hit::Hair(hit)), _) => self.hair_bsdf(hit, direction),
+            _ => {
+                let colour = self.floor.as_ref().map_or(Vec3::ZERO, Floor::colour);
+                Bsdf::Surface(RoughPlastic::new(Vec3::Z, -direction, colour, 0.0, 1.0))
+            }
+        };
         Some(Seen { intersection, bsdf, weight: Vec3::ONE })
     }
 
@@ -281,7 +283,7 @@ impl Integrator {
         direction: Vec3,
         sampler: &mut Sampler,
     ) -> Option<Seen<'_>> {
-        let surface = self.skin_bsdf(hit, -direction);
+        let surface = skin_bsdf(hit, material, -direction);
         let coat = surface.coat_probability();
         let which = sampler.one();
         let ([a, b], [c, d]) = (sampler.pair(), sampler.pair());
@@ -292,7 +294,7 @@ impl Integrator {
         }
         let skin = Subsurface::new(material.colour, self.skin.scatter);
         let (exit, weight) = skin.exit(&self.bvh, hit, [a, b, c, d])?;
-        if !self.material(&exit).scatters {
+        if !self.material(&exit, None, 0.0).scatters {
             return None;
         }
         let normal = facing(exit.smooth_normal, exit.normal);
@@ -301,8 +303,19 @@ impl Integrator {
         Some(Seen { intersection: Intersection::Hit(Hit::Skin(exit)), bsdf, weight })
     }
 
-    /// What the head or an accessory is made of at a hit.
-    fn material(&self, hit: &SkinHit) -> Material {
+    /// The material where a path hits the head or an accessory. What it scatters on has no fine structure: only the mean of that is seen.
+    fn material_at(&self, intersection: &Intersection, bounce: u32) -> Option<Material> {
+        match intersection {
+            Intersection::Hit(Hit::Skin(hit)) if bounce == 0 => {
+                Some(self.material(hit, Some(hit.smooth_normal), self.skin.texture))
+            }
+            Intersection::Hit(Hit::Skin(hit)) => Some(self.material(hit, None, 0.0)),
+            _ => None,
+        }
+    }
+
+    /// What the head or an accessory is made of at a hit, with relief on its `normal` and a fine structure of the strength `texture`.
+    fn material(&self, hit: &SkinHit, normal: Option<Vec3>, texture: f32) -> Material {
         let accessory = self.head.as_ref().and_then(|head| head.accessory(hit.face as usize));
         if let Some(accessory) = accessory {
             return accessory_material(accessory);
@@ -310,15 +323,7 @@ impl Integrator {
         let features = self.head.as_ref().and_then(Surface::features);
         let tint = |head: &Surface| head.tint(hit.face as usize, hit.barycentric);
         let tint = self.head.as_ref().map_or(Tint::default(), tint);
-        material(features, tint, hit.position, &self.skin)
-    }
-
-    fn skin_bsdf(&self, hit: &SkinHit, eye: Vec3) -> RoughPlastic {
-        let material = self.material(hit);
-        let normal = facing(material.normal.unwrap_or(hit.smooth_normal), eye);
-        // At most that of a refractive index of 2.6, beyond any varnish.
-        let f0 = (F0_PER_GLOSS * material.gloss).clamp(0.0, 0.2);
-        RoughPlastic::new(normal, eye, material.colour, f0, material.roughness)
+        material(features, tint, (hit.position, normal), &SkinLook { texture, ..self.skin })
     }
 
     fn hair_bsdf(&self, hit: &HairHit, direction: Vec3) -> Bsdf<'_> {
@@ -362,6 +367,13 @@ impl Integrator {
         let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) };
         value * light.radiance * (weight / light.pdf)
     }
+}
+
+fn skin_bsdf(hit: &SkinHit, material: &Material, eye: Vec3) -> RoughPlastic {
+    let normal = facing(material.normal.unwrap_or(hit.smooth_normal), eye);
+    // At most that of a refractive index of 2.6, beyond any varnish.
+    let f0 = (F0_PER_GLOSS * material.gloss).clamp(0.0, 0.2);
+    RoughPlastic::new(normal, eye, material.colour, f0, material.roughness)
 }
 
 /// Reflectance F0 of skin's coat at normal incidence per unit of [`SkinLook::gloss`]: about 0.03 by default,
