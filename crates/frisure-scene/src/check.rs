@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use frisure_hairstyle::styling::{Operation, StyleError};
-use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec};
+use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec, Range, number};
 use frisure_rod::{InvalidQuantity, NaturalStrain, Options, Resolution, Rod, RodSpec, Root};
 use glam::DVec3;
 
@@ -21,6 +21,9 @@ const MAX_HEAVINESS: f64 = 1e8;
 /// frizzy, coily, kinky and curly, in 15 to 90 elements: above, guides were 1.0 to 4.1 mm inside the head, below
 /// 0.01 to 0.6 mm.
 const WIDEST_ELEMENT: f64 = FRAC_PI_2;
+
+/// Lengths of one hair (m). Chosen: beyond, a unit was mistaken; the smallest and largest numbers leave their range as squares and cubes.
+const ONE_HAIR: Range = Range::new("hair.length", 1e-6, 100.0, "between 1 um and 100 m");
 
 impl Scene {
     /// The whole head of hair that the scene describes, with every number in range.
@@ -55,7 +58,7 @@ impl Scene {
             return Ok(());
         }
         let problem = format!(
-            "`equilibrium.elements` is {given}; curls as tight as these touch the head with at least {needed}"
+            "`equilibrium.elements` is {given}; hair of this length and natural curl follows the head with at least {needed}"
         );
         let hint = format!("write `elements = {needed}`, or `accuracy` instead");
         Err(self.error_at("equilibrium.elements", problem, hint))
@@ -66,6 +69,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] for a number out of range.
     pub fn single_hair(&self) -> Result<SingleHair, SceneError> {
+        self.check_one_hair()?;
         let spec = &self.spec;
         let [d1, d2, t] = self.frame;
         let refuse = |e: InvalidQuantity| self.quantity_error(&e);
@@ -97,6 +101,14 @@ impl Scene {
             rod,
             options: Options { resolution, element, branch, ..Options::default() },
         })
+    }
+
+    /// Refuses what one hair is not computed with, in wider ranges than a head has.
+    fn check_one_hair(&self) -> Result<(), SceneError> {
+        let spec = &self.spec;
+        ONE_HAIR.check(spec.length.mean).map_err(|e| self.spec_error(&e))?;
+        let tolerance = number("equilibrium.tolerance").expect("it is a number of a head");
+        tolerance.range.check(spec.equilibrium.tolerance).map_err(|e| self.spec_error(&e))
     }
 
     /// The error about the value of `key`, such as a mesh at `head.mesh` that is no head; `hint` may be empty.

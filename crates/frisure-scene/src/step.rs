@@ -10,9 +10,17 @@ use crate::schema::schema;
 use crate::source::Source;
 use crate::{unit_hint, unknown_keys};
 
+/// Most steps of a scene. Chosen: each takes a millisecond or more even where it changes nothing, and a day in the salon has hundreds.
+pub(crate) const MOST_STEPS: usize = 10_000;
+
 /// The operations of the steps of a scene.
 pub(crate) fn operations(document: &Document<'_>) -> Result<Vec<Operation>> {
     let steps = document.get_or::<Steps>("step", Vec::new())?;
+    if steps.len() > MOST_STEPS {
+        let problem = format!("there are {} steps; {MOST_STEPS} are possible", steps.len());
+        let hint = "leave out steps that change nothing, or write the hair to a groom and go on from that (`[groom]`)";
+        return Err(document.error("step", problem, hint));
+    }
     let read = |(i, step)| operation(step, &format!("step[{i}]"), document.source);
     steps.iter().enumerate().map(read).collect()
 }

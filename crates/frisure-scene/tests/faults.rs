@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::diagnostic;
+use common::{diagnostic, parse};
 use frisure_scene::Scene;
 
 /// Text, line, column, key, value, and parts of the sentence with its hint.
@@ -131,7 +131,34 @@ fn faults_name_place_value_range_and_hint() {
             &["greater"],
         ),
         ("[hair.curl]\nradius = 0", 2, 10, "hair.curl.radius", "0", &["greater than zero"]),
-        ("[hair.curl]\nkappa1 = 1e6", 2, 10, "hair.curl.kappa1", "1e6", &["at most 20000 rad/m"]),
+        ("[hair.curl]\nkappa1 = 5e4", 2, 10, "hair.curl.kappa1", "5e4", &["at most 20000 rad/m"]),
+        ("[hair.curl]\ntau = -1e300", 2, 7, "hair.curl.tau", "-1e300", &["-1e5 and 1e5 rad/m"]),
+        (
+            "[hair.curl]\nradius = 1e-200\npitch = 0",
+            2,
+            10,
+            "hair.curl.radius",
+            "1e-200",
+            &["at least 10 um"],
+        ),
+        (
+            "[[hair.curl.along]]\ns = 0\nkappa2 = 1e6",
+            3,
+            10,
+            "hair.curl.along[0].kappa2",
+            "1e6",
+            &["-1e5 and 1e5 rad/m"],
+        ),
+        (
+            "[[hair.curl.along]]\ns = -1e300",
+            2,
+            5,
+            "hair.curl.along[0].s",
+            "-1e300",
+            &["between -100 and 100 m"],
+        ),
+        ("hair.curl.along = []", 1, 19, "hair.curl.along", "[]", &["at least one table"]),
+        ("pose.down = [0, 0, 0]", 1, 13, "pose.down", "[0, 0, 0]", &["that is not zero"]),
         ("[wisps]\ncount = 0", 2, 9, "wisps.count", "0", &["between 1 and 20000"]),
         (
             "[wisps]\nhairs = 10_000_000",
@@ -455,6 +482,47 @@ fn a_key_of_another_table_is_told_where_it_belongs() {
     ] {
         assert_eq!(diagnostic(text).hint, place, "{text}");
     }
+}
+
+#[test]
+fn one_hair_has_ranges_of_its_own() {
+    for (text, key, allowed) in [
+        ("hair.length = 5e-324", "hair.length", "between 1 um and 100 m"),
+        ("hair.length = 1e300", "hair.length", "between 1 um and 100 m"),
+        ("equilibrium.tolerance = 0", "equilibrium.tolerance", "between 1e-8 and 0.1"),
+    ] {
+        let error = parse(text).unwrap().single_hair().unwrap_err();
+        let found = error.diagnostic().unwrap();
+        assert_eq!((found.key.as_str(), found.allowed.as_str()), (key, allowed), "{text}");
+    }
+    // What no head has, and one hair may.
+    let stiff = "gravity = 0\nhair.length = \"10 m\"\nhair.fibre.diameter = \"2 mm\"";
+    assert!(parse(stiff).unwrap().single_hair().is_ok());
+}
+
+#[test]
+fn the_length_of_the_direction_of_gravity_means_nothing() {
+    let down = |length: f64| {
+        let text = format!("pose.down = [{length:e}, {length:e}, 0]");
+        parse(&text).unwrap().hairstyle_spec().unwrap().pose
+    };
+    for length in [1e300, 1e-300, 5e-324] {
+        assert_eq!(down(length), down(1.0), "{length}");
+    }
+}
+
+#[test]
+fn more_steps_than_a_day_in_the_salon_has_are_refused() {
+    let steps = |count: usize| "[[step]]\nwet = {}\n".repeat(count);
+    let told = diagnostic(&steps(10_001)).to_string();
+    assert!(told.contains("there are 10001 steps; 10000 are possible"), "{told}");
+    assert!(parse(&steps(10_000)).is_ok());
+}
+
+#[test]
+fn straight_hair_in_few_elements_is_not_called_a_tight_curl() {
+    let told = diagnostic("hair.type = \"straight\"\nequilibrium.elements = 1").to_string();
+    assert!(told.contains("`equilibrium.elements` is 1") && !told.contains("tight"), "{told}");
 }
 
 #[test]

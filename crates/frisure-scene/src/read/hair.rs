@@ -17,6 +17,13 @@ const MAX_AXIS_RATIO: f64 = 20.0;
 /// Largest radius and pitch of a natural helix (m). Chosen: hair is straight long before, and a unit was mistaken.
 const WIDEST: f64 = 100.0;
 
+/// Largest natural curvature and torsion (rad/m): a radius of 10 µm, less than a hair is thick. Chosen: heads have at most 20 000, a unit
+/// was mistaken, and a hair of a million turns in an element is not computed.
+const CURLIEST: f64 = 1e5;
+
+/// Farthest place of a natural strain along a hair (m): no hair is as long.
+const FARTHEST: f64 = 100.0;
+
 /// The fibre, whose variations are [numbers](Document::set_fields).
 pub(super) fn fibre(document: &Document<'_>, preset: &Preset, default: Fibre) -> Result<Fibre> {
     let refuse = |e: InvalidQuantity| quantity_error(&e, document.source);
@@ -88,7 +95,7 @@ pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
     let number = |key: &str| document.number(&format!("hair.curl.{key}"));
     let (radius, pitch) = (number("radius"), number("pitch"));
     if ["kappa1", "kappa2", "tau"].into_iter().any(|key| number(key).is_some()) {
-        curl.strain = strain(document, "hair.curl");
+        curl.strain = strain(document, "hair.curl")?;
     } else if radius.is_some() || pitch.is_some() {
         let preset = curl.radius_pitch().unwrap_or_default();
         for (quantity, value, allowed) in [
@@ -102,29 +109,48 @@ pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
         }
         let helix = Curl::helix(radius.unwrap_or(preset.0), pitch.unwrap_or(preset.1));
         curl.strain = helix.map_err(|e| quantity_error(&e, document.source))?.strain;
+        // Of a helix, neither is larger than the radius inverted.
+        if !(curl.strain.abs().max_element() <= CURLIEST) {
+            let (quantity, value) = ("curl radius", radius.unwrap_or(preset.0));
+            let error = InvalidQuantity { quantity, value, unit: "m", allowed: "at least 10 um" };
+            return Err(quantity_error(&error, document.source));
+        }
     }
     Ok(())
 }
 
 /// The strains of a table; those that it does not have are 0.
-fn strain(document: &Document<'_>, table: &str) -> DVec3 {
-    let number = |key: &str| document.number(&format!("{table}.{key}")).unwrap_or(0.0);
-    DVec3::new(number("kappa1"), number("kappa2"), number("tau"))
+fn strain(document: &Document<'_>, table: &str) -> Result<DVec3> {
+    let number = |key: &str| {
+        let path = format!("{table}.{key}");
+        let value = document.number(&path).unwrap_or(0.0);
+        if value.abs() > CURLIEST {
+            return Err(document.outside(&path, "between -1e5 and 1e5 rad/m (10 um radius)"));
+        }
+        Ok(value)
+    };
+    Ok(DVec3::new(number("kappa1")?, number("kappa2")?, number("tau")?))
 }
 
 /// The natural strains along a hair, if they are given.
 pub(super) fn along(document: &Document<'_>) -> Result<Option<StrainProfile>> {
     let mut knots: Vec<(f64, DVec3)> = Vec::new();
+    if document.value("hair.curl.along").is_some() && document.count_items("hair.curl.along") == 0 {
+        return Err(document.outside("hair.curl.along", "a list of at least one table"));
+    }
     for i in 0..document.count_items("hair.curl.along") {
         let knot = format!("hair.curl.along[{i}]");
         let path = format!("{knot}.s");
         let s = document.number(&path).unwrap_or(0.0);
+        if s.abs() > FARTHEST {
+            return Err(document.outside(&path, "between -100 and 100 m"));
+        }
         if knots.last().is_some_and(|last| s <= last.0) {
             let path = if document.has(&path) { path } else { knot };
             let allowed = "greater than the one before: knots go from root to tip";
             return Err(document.outside(&path, allowed));
         }
-        knots.push((s, strain(document, &knot)));
+        knots.push((s, strain(document, &knot)?));
     }
     if knots.is_empty() {
         return Ok(None);

@@ -122,8 +122,10 @@ fn wetting(
 /// How the head is held, where the scene gives the direction of gravity; angles are [numbers](Document::set_fields).
 fn pose(document: &Document<'_>, default: Pose) -> Result<Pose> {
     let Some(down) = document.get::<Vector>("pose.down")? else { return Ok(default) };
+    // Its length means nothing; the square of a large or small one would leave the range of numbers.
+    let largest = down.abs().max_element();
     let outside = || document.outside("pose.down", "a vector that is not zero");
-    Pose::of(down).ok_or_else(outside)
+    Pose::of(down / largest).filter(|_| largest > 0.0).ok_or_else(outside)
 }
 
 fn equilibrium(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result<Branch> {
