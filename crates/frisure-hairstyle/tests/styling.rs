@@ -481,7 +481,28 @@ fn bad_operations_are_refused() {
         let wet = Operation::Wet(Wet { to: wetness, ..Wet::default() });
         assert!(matches!(refused(&wet), StyleError::Invalid(_)));
     }
-    assert!(matches!(refused(&grow(Growth::By(2.9))), StyleError::TooLong { wisp: 0, .. }));
+    let error = refused(&grow(Growth::By(2.9)));
+    assert!(matches!(error, StyleError::TooLong { wisp: 0, .. }));
+    let words = error.to_string();
+    let (_, metres) = words.split_once("would grow to ").unwrap();
+    assert_eq!(metres.find(" m;"), Some(4), "two decimals: {words}");
+}
+
+#[test]
+fn hair_grows_to_the_longest_that_is_computed_and_no_wisp_beyond() {
+    let mut spec = spec("straight", 6, HairContact::None);
+    spec.contact.body = Body::None;
+    spec.length.mean = 2.9;
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+    let length = |h: &Hairstyle, i: usize| h.equilibria()[i].rod.length();
+    // Lengths vary from wisp to wisp: some would grow beyond, and some are longer already.
+    assert!((0..6).any(|i| length(&before, i) > 2.9 && length(&before, i) < 3.0));
+    let after = done(&before, &grow(Growth::To(3.0)));
+    for i in 0..6 {
+        let (old, new) = (length(&before, i), length(&after, i));
+        let longest = f64::min(3.0 / 2.9 * old, 3.0);
+        assert!((new - longest.max(old)).abs() < 1e-9, "{i}: {old} to {new} m");
+    }
 }
 
 #[test]

@@ -60,7 +60,7 @@ pub enum StyleError {
         needed: f64,
     },
     /// Hair would become longer than can be computed.
-    #[error("wisp {wisp} would grow to {length} m; at most {most} m can be computed")]
+    #[error("wisp {wisp} would grow to {length:.2} m; at most {most} m can be computed")]
     TooLong {
         /// The wisp.
         wisp: usize,

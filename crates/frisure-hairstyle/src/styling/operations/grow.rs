@@ -10,6 +10,9 @@ use super::apply::Apply;
 /// Longest guide (m): that of a description.
 const LONGEST: f64 = 3.0;
 
+/// A factor for the rounding of a length that is subtracted from another and added again.
+const ROUNDING: f64 = 1.0 + 1e-12;
+
 /// How much longer than before hair may be when it comes to rest again while it grows, as a factor
 /// and as a length (m), whichever is more: it buckles and falls on its way, not at its end. Chosen by trial.
 const GROWN_AT_ONCE: (f64, f64) = (1.25, 5e-3);
@@ -80,10 +83,12 @@ impl Apply for Grow {
                 _ if !chosen => 0.0,
                 Growth::By(length) => length,
                 Growth::For(time) => time * spec.growth_rate,
-                Growth::To(length) => (length * guide.share - wisp.length).max(0.0),
+                // Guides that are longer than the mean end at the longest that is computed.
+                Growth::To(length) => ((length * guide.share).min(LONGEST) - wisp.length).max(0.0),
             })
             .collect();
-        let too_long = |(wisp, by): (&WispState, &f64)| wisp.length + by > LONGEST;
+        let too_long =
+            |(wisp, by): (&WispState, &f64)| *by > 0.0 && wisp.length + by > LONGEST * ROUNDING;
         if let Some(wisp) = hair.styling.wisps.iter().zip(&by).position(too_long) {
             let length = hair.styling.wisps[wisp].length + by[wisp];
             return Err(StyleError::TooLong { wisp, length, most: LONGEST });
