@@ -8,6 +8,9 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+/// What follows the name of a file in messages about a text that was edited since it was read: its lines are not those of the file.
+pub(crate) const EDITED: &str = " (edited)";
+
 /// The exception for an error.
 pub(crate) fn raise(py: Python<'_>, error: &Error) -> PyErr {
     let text = frisure_cli::plain(error);
@@ -26,9 +29,14 @@ pub(crate) fn raise(py: Python<'_>, error: &Error) -> PyErr {
     made.unwrap_or_else(|e| e)
 }
 
-/// The exception for an edit of a scene that is impossible.
-pub(crate) fn edit(py: Python<'_>, error: EditError) -> PyErr {
+/// The exception for an edit of a scene that is impossible; the scene is called `name`.
+pub(crate) fn edit(py: Python<'_>, error: EditError, name: &str) -> PyErr {
     match error {
+        EditError::Scene(SceneError::Invalid(mut found)) => {
+            // An edit knows the text alone.
+            found.file = name.to_owned();
+            raise(py, &Error::Scene(SceneError::Invalid(found)))
+        }
         EditError::Scene(error) => raise(py, &Error::Scene(error)),
         error => raise(py, &Error::because(&error, "")),
     }
@@ -39,7 +47,7 @@ fn scene_error(py: Python<'_>, text: &str, found: &Diagnostic) -> PyResult<PyErr
     let Diagnostic { file, line, column, key, value, allowed, hint, .. } = found;
     let place = PyDict::new(py);
     place.set_item("problem", found.message())?;
-    place.set_item("file", file)?;
+    place.set_item("file", file.strip_suffix(EDITED).unwrap_or(file))?;
     place.set_item("line", line)?;
     place.set_item("column", column)?;
     place.set_item("key", key)?;

@@ -36,12 +36,15 @@ pub(crate) struct KnownArrays<'py> {
     axis_ratio: Option<PyReadonlyArray2<'py, f64>>,
 }
 
+/// Lines that are read between two looks at signals.
+const BLOCK: usize = 1024;
+
 /// An error about an argument.
 fn wrong(argument: &str, index: usize, problem: &dyn std::fmt::Display) -> Error {
     Error::invalid(format!("`{argument}[{index}]` is wrong: {problem}"), "")
 }
 
-fn fibres(lines: &Lines<'_>) -> Result<Vec<Fibre>, Error> {
+fn fibres(py: Python<'_>, lines: &Lines<'_>) -> PyResult<Vec<Fibre>> {
     let points = lines.points.as_array();
     let offsets = lines.offsets.as_array();
     let arcs = lines.arc_length.as_ref().map(PyReadonlyArray1::as_array);
@@ -49,19 +52,22 @@ fn fibres(lines: &Lines<'_>) -> Result<Vec<Fibre>, Error> {
     let lengths = lines.length.as_array();
     let mut poses: Vec<Vec<(usize, Pose)>> = vec![Vec::new(); lengths.len()];
     for line in 0..states.len() {
+        if line % BLOCK == 0 {
+            py.check_signals()?;
+        }
         let range = index(offsets, line)..index(offsets, line + 1);
         let vectors = range.clone().map(|i| row(points, i)).collect();
         let arc = arcs.map(|arcs| range.map(|i| arcs[i]).collect());
         let state = index(states, line);
         let pose = Pose::new(vectors, arc, row(gravity, line), state);
-        let pose = pose.map_err(|problem| wrong("strands", line, &problem))?;
+        let pose = pose.map_err(|problem| raise(py, &wrong("strands", line, &problem)))?;
         poses[index(lines.fibre.as_array(), line)].push((line, pose));
     }
     let fibre = |(fibre, poses): (usize, Vec<(usize, Pose)>)| {
         let length = Some(lengths[fibre]).filter(|length| !length.is_nan());
         let first = poses.first().map_or(0, |(line, _)| *line);
         Fibre::new(poses.into_iter().map(|(_, pose)| pose).collect(), length)
-            .map_err(|problem| wrong("strands", first, &problem))
+            .map_err(|problem| raise(py, &wrong("strands", first, &problem)))
     };
     poses.into_iter().enumerate().map(fibre).collect()
 }
@@ -150,7 +156,7 @@ pub(crate) fn fit_fibres<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = Options { noise, knots };
     options.check().map_err(|problem| raise(py, &Error::because(&problem, "")))?;
-    let fibres = fibres(&lines).map_err(|error| raise(py, &error))?;
+    let fibres = fibres(py, &lines)?;
     let known = known.known().map_err(|error| raise(py, &error))?;
     let (names, fits) = work::run(py, progress, move |p| {
         let fits = fit(&fibres, &known, &options, p)?;

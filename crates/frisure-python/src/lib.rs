@@ -13,6 +13,7 @@
 //! | `hairstyle.rs` | hairstyles: predicted, styled, drawn, written |
 //! | `photo.rs` | photos of locks: measured |
 //! | `picture.rs` | pictures of hairstyles |
+//! | `room.rs` | whether arrays have room in memory |
 //! | `rods` | many single rods at once, as arrays |
 //! | `scene.rs` | scenes: read, edited |
 //! | `strands.rs` | strands as arrays |
@@ -31,6 +32,7 @@ mod hairstyle;
 mod photo;
 mod picture;
 mod rods;
+mod room;
 mod scene;
 mod strands;
 mod values;
@@ -57,11 +59,15 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::scene_keys, module)?)?;
     module.add_function(wrap_pyfunction!(rods::settle_rods, module)?)?;
     module.add_function(wrap_pyfunction!(rods::inverse_rods, module)?)?;
+    module.add_function(wrap_pyfunction!(rods::check_rods, module)?)?;
+    module.add_function(wrap_pyfunction!(room::check_room, module)?)?;
+    module.add_function(wrap_pyfunction!(work::after_fork, module)?)?;
     module.add_function(wrap_pyfunction!(fit::fit_fibres, module)?)?;
     module.add_function(wrap_pyfunction!(photo::measure_photo, module)?)?;
     #[cfg(feature = "batch")]
     {
         module.add_function(wrap_pyfunction!(batch::missing_parts, module)?)?;
+        module.add_function(wrap_pyfunction!(batch::run_batch, module)?)?;
         module.add_function(wrap_pyfunction!(batch::compute_part, module)?)?;
     }
     module.add_function(wrap_pyfunction!(command::run_command, module)?)

@@ -1,17 +1,20 @@
 //! Scenes: read, checked, edited.
 
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, absolute};
 use std::sync::Arc;
+use std::{env, io};
 
+use frisure::files::write_atomically;
 use frisure::hairstyle::PRESETS;
 use frisure::hairstyle::styling::Operation;
+use frisure::scene::edit::EditError;
 use frisure::scene::keys::KEYS;
 use frisure::scene::{Scene, SceneError, edit, parse_step, template};
 use frisure_engine::Error;
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
-use crate::errors;
+use crate::errors::{self, EDITED};
 use crate::values::{inline, table, toml, unwritable};
 
 /// The checked text of a scene; it never changes.
@@ -20,21 +23,46 @@ pub(crate) struct SceneText {
     pub(crate) scene: Arc<Scene>,
     /// What errors call it.
     name: String,
-    /// The folder that its paths are relative to.
+    /// The folder that its paths are relative to, absolute: the working directory may change.
     folder: PathBuf,
+    /// Whether the text is another than that of the file with its name.
+    edited: bool,
 }
 
 impl SceneText {
-    fn parsed(py: Python<'_>, name: String, text: String, folder: PathBuf) -> PyResult<Self> {
-        let read = Scene::parse(&name, text, &folder).and_then(checked);
+    fn parsed(
+        py: Python<'_>,
+        name: String,
+        text: String,
+        folder: &Path,
+        edited: bool,
+    ) -> PyResult<Self> {
+        let folder = whole(folder).map_err(|e| errors::raise(py, &Error::failed(&e, "")))?;
+        let read = Scene::parse(&label(&name, edited), text, &folder).and_then(checked);
         let scene = read.map_err(|e| errors::raise(py, &Error::Scene(e)))?;
-        Ok(Self { scene: Arc::new(scene), name, folder })
+        Ok(Self { scene: Arc::new(scene), name, folder, edited })
     }
 
     /// The same scene with an edited text.
     fn with_text(&self, py: Python<'_>, text: String) -> PyResult<Self> {
-        Self::parsed(py, self.name.clone(), text, self.folder.clone())
+        Self::parsed(py, self.name.clone(), text, &self.folder, true)
     }
+
+    /// The exception for an edit that is impossible.
+    fn wrong_edit(&self, py: Python<'_>, error: EditError) -> PyErr {
+        errors::edit(py, error, &label(&self.name, true))
+    }
+}
+
+/// What messages call a scene of a name; texts that never were in a file, such as `<dict>`, are called the same when they are edited.
+fn label(name: &str, edited: bool) -> String {
+    let suffix = if edited && !name.starts_with('<') { EDITED } else { "" };
+    format!("{name}{suffix}")
+}
+
+/// A folder by its absolute path; the working directory for none.
+fn whole(folder: &Path) -> io::Result<PathBuf> {
+    if folder.as_os_str().is_empty() { env::current_dir() } else { absolute(folder) }
 }
 
 /// The scene, if its numbers are in the ranges of a head of hair.
@@ -45,10 +73,16 @@ fn checked(scene: Scene) -> Result<Scene, SceneError> {
 
 #[pymethods]
 impl SceneText {
-    /// Reads the text of a scene.
+    /// Reads the text of a scene; `edited`, if it is another than that of the file with its name.
     #[staticmethod]
-    fn parse(py: Python<'_>, text: String, name: String, folder: PathBuf) -> PyResult<Self> {
-        Self::parsed(py, name, text, folder)
+    fn parse(
+        py: Python<'_>,
+        text: String,
+        name: String,
+        folder: PathBuf,
+        edited: bool,
+    ) -> PyResult<Self> {
+        Self::parsed(py, name, text, &folder, edited)
     }
 
     /// Reads a scene file.
@@ -56,8 +90,10 @@ impl SceneText {
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let read = Scene::read(&path).and_then(checked);
         let scene = read.map_err(|e| errors::raise(py, &Error::Scene(e)))?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        Ok(Self { scene: Arc::new(scene), name: path.display().to_string(), folder })
+        let folder = whole(path.parent().unwrap_or(Path::new("")));
+        let folder = folder.map_err(|e| errors::raise(py, &Error::failed(&e, "")))?;
+        // Once more, since what it names must be found from another working directory, too.
+        Self::parsed(py, path.display().to_string(), scene.text().to_owned(), &folder, false)
     }
 
     /// Writes a mapping as TOML, and reads that.
@@ -69,7 +105,7 @@ impl SceneText {
     ) -> PyResult<Self> {
         let table = table(mapping, "scene")?;
         let text = ::toml::to_string(&table).map_err(|e| unwritable(&e))?;
-        Self::parsed(py, "<dict>".into(), text, folder)
+        Self::parsed(py, "<dict>".into(), text, &folder, false)
     }
 
     /// The text.
@@ -82,6 +118,12 @@ impl SceneText {
     #[getter]
     fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Whether the text is another than that of the file with its name.
+    #[getter]
+    fn edited(&self) -> bool {
+        self.edited
     }
 
     /// The folder that its paths are relative to.
@@ -110,7 +152,7 @@ impl SceneText {
         let changes: Vec<_> =
             written.iter().map(|(key, value)| (key.as_str(), value.as_deref())).collect();
         let text = edit::set_keys(self.scene.text(), &changes);
-        self.with_text(py, text.map_err(|e| errors::edit(py, e))?)
+        self.with_text(py, text.map_err(|e| self.wrong_edit(py, e))?)
     }
 
     /// The scene with one more step: the name of its operation, and the value of that.
@@ -119,7 +161,14 @@ impl SceneText {
         let text = format!("{name} = {}", inline(&value));
         let step = parse_step(name, text).map_err(|e| errors::raise(py, &Error::Scene(e)))?;
         let text = edit::append(self.scene.text(), &[step]);
-        self.with_text(py, text.map_err(|e| errors::edit(py, e))?)
+        self.with_text(py, text.map_err(|e| self.wrong_edit(py, e))?)
+    }
+
+    /// Writes the text to a file, as a whole or not at all.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let written = py
+            .detach(|| write_atomically(&path, |out| out.write_all(self.scene.text().as_bytes())));
+        written.map_err(|e| errors::raise(py, &Error::failed(&e, "")))
     }
 
     /// The number of a key in SI units, given or not; `None` for a key that has no number.

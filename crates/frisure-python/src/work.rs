@@ -19,8 +19,37 @@ const POLL: Duration = Duration::from_millis(20);
 /// [`POLL`] it is below the 0.2 s in which Ctrl-C has to act.
 const GRACE: Duration = Duration::from_millis(100);
 
+/// Whether threads of this library have been started in this process, or in one that it was forked from.
+static STARTED: AtomicBool = AtomicBool::new(false);
+
+/// Whether this process was forked after that: it has none of those threads, and would wait for them without end.
+static FORKED: AtomicBool = AtomicBool::new(false);
+
 /// Size of the stack of the work (bytes), as large as that of a main thread on Linux.
 const STACK: usize = 8 << 20;
+
+/// Notes that this process is a fork; Python calls it in the child.
+#[pyfunction]
+pub(crate) fn after_fork() {
+    if STARTED.load(Ordering::Relaxed) {
+        FORKED.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Notes that threads are started now.
+///
+/// # Errors
+/// `FailedError`, in a process that was forked from one with threads.
+pub(crate) fn begin(py: Python<'_>) -> PyResult<()> {
+    STARTED.store(true, Ordering::Relaxed);
+    if !FORKED.load(Ordering::Relaxed) {
+        return Ok(());
+    }
+    let problem = "this process was forked from one in which frisure had started threads, which a fork does not have";
+    let hint = "use the start method \"spawn\": multiprocessing.set_start_method(\"spawn\"), or \
+                multiprocessing_context=\"spawn\" of a DataLoader";
+    Err(raise(py, &Error::Failed { problem: problem.into(), hint: hint.into() }))
+}
 
 /// Runs work without the interpreter's lock, and returns its result.
 ///
@@ -31,6 +60,7 @@ pub(crate) fn run<T: Send + 'static>(
     callback: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&dyn Progress) -> Result<T, Error> + Send + 'static,
 ) -> PyResult<T> {
+    begin(py)?;
     let reports = Arc::new(Reports::default());
     let mut end = start(work, reports.clone()).map_err(|e| raise(py, &e))?;
     loop {

@@ -125,3 +125,110 @@ def test_the_result_does_not_depend_on_those_beside_it() -> None:
     alone = rods.settle(length[1300], **curl).vjp(weights[1300:1301])
     assert together.length[1300] == alone.length[0]
     assert np.array_equal(together.half_strain[1300], alone.half_strain[0])
+
+
+EXTRA: dict[str, tuple[int, ...]] = {"gravity_vector": (3,), "root_rotation": (3,), "half_strain": (40, 3)}
+"""Changes of what is no argument of `settle`, and their shapes for a rod."""
+
+
+def changes_of(arguments: dict[str, Any], seed: int) -> dict[str, np.ndarray[Any, Any]]:
+    """A random change of each argument, of a thousandth of its size, with a row for each rod."""
+    random, found = np.random.default_rng(seed), {}
+    for name, value in arguments.items():
+        size = np.abs(value).max()
+        shape = (7, *np.shape(value)[-1:]) if name in ("root", "tangent", "d1", "natural_strain") else (7,)
+        if np.ndim(value) == 3:
+            shape = np.shape(value)
+        found[name] = 1e-3 * size * random.normal(size=shape)
+    return found
+
+
+@pytest.mark.parametrize("natural", [CURL, KNOTS, {"natural_strain": np.array([50.0, 5.0, 20.0])}])
+@pytest.mark.parametrize("gravity", [9.81, 0.0])
+def test_forward_products_are_differences_and_agree_with_backward_ones(natural: dict[str, Any], gravity: float) -> None:
+    arguments = RODS | natural | {"gravity": gravity}
+    rest = rods.settle(**arguments, **OPTIONS, derivatives=True)
+    assert rest.points is not None
+    frames = np.random.default_rng(9).normal(size=WEIGHTS.shape)
+    gradient = rest.vjp(WEIGHTS, frames)
+    everything = changes_of({**arguments, "gravity": 9.81}, 8)
+    # One by one and all together: against differences of the solver.
+    for names in [*([name] for name in everything), list(everything)]:
+        change = {name: everything[name] for name in names}
+        moved = rest.jvp(**change)
+        assert moved.points.shape == (7, 21, 3) and moved.exists.all() and len(moved) == 7
+        step = 1e-2
+        values = []
+        for k in (-2, -1, 1, 2):
+            changed = dict(arguments)
+            for name, by in change.items():
+                changed[name] = np.asarray(arguments[name]) + k * step * by
+            if np.any(np.asarray(changed["gravity"]) < 0):
+                # A size cannot be less than nothing: the backward product is left to compare with.
+                break
+            points = rods.settle(**changed, **OPTIONS).points
+            assert points is not None
+            values.append(points)
+        if len(values) == 4:
+            found = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * step)
+            size = np.abs(moved.points).max()
+            assert np.allclose(moved.points, found, rtol=1e-5, atol=1e-6 * size + 1e-13), names
+        # Against the backward products: the derivative of one loss along the change.
+        forward = (moved.points * WEIGHTS).sum(axis=(1, 2)) + (moved.frames * frames).sum(axis=(1, 2))
+        backward = sum((getattr(gradient, name) * by).reshape(7, -1).sum(axis=1) for name, by in change.items())
+        assert np.allclose(forward, backward, rtol=1e-8, atol=1e-10 * np.abs(forward).max() + 1e-15), names
+
+
+def test_what_is_no_argument_has_forward_products_too() -> None:
+    for natural in (CURL, KNOTS):
+        rest = rods.settle(**(RODS | natural), **OPTIONS, derivatives=True)
+        gradient = rest.vjp(WEIGHTS)
+        for name, shape in EXTRA.items():
+            change = np.random.default_rng(10).normal(size=(7, *shape))
+            moved = rest.jvp(**{name: change})
+            forward = (moved.points * WEIGHTS).sum(axis=(1, 2))
+            backward = (getattr(gradient, name) * change).reshape(7, -1).sum(axis=1)
+            assert np.allclose(forward, backward, rtol=1e-8, atol=1e-10 * np.abs(forward).max()), name
+        # Gravity is along -z.
+        assert np.allclose(-gradient.gravity_vector[:, 2], gradient.gravity, rtol=1e-10)
+
+
+def test_a_change_may_be_one_for_all_rods() -> None:
+    rest = rods.settle(**(RODS | KNOTS), **OPTIONS, derivatives=True)
+    one = rest.jvp(length=0.01, tangent=[0, 0, 1], natural_strain=np.ones((1, 4, 3)))
+    each = rest.jvp(length=np.full(7, 0.01), tangent=np.tile([0, 0, 1.0], (7, 1)), natural_strain=np.ones((7, 4, 3)))
+    assert np.allclose(one.points, each.points, rtol=1e-12, atol=0)
+    assert np.array_equal(rest.jvp(natural_strain=[1, 2, 3]).points, rest.jvp(natural_strain=np.tile([1.0, 2, 3], (7, 1))).points)
+    assert not rest.jvp().points.any()
+    none = rods.settle(np.zeros(0), derivatives=True).jvp(length=np.zeros(0))
+    assert none.points.shape == (0, 16, 3)
+    straight = rods.settle(0.1, derivatives=True)
+    assert not straight.jvp(curl_radius=1.0).points.any()
+
+
+def test_wrong_changes_are_named() -> None:
+    rest = rods.settle(**(RODS | KNOTS), **OPTIONS, derivatives=True)
+    for message, change in {
+        "length has 3 values for 7 rods": {"length": [1, 2, 3]},
+        r"diameter\[2\] is nan": {"diameter": [0, 0, np.nan, 0, 0, 0, 0]},
+        "root has the shape": {"root": [1, 2]},
+        "have a natural_strain, and no curl_radius": {"curl_radius": 1},
+        "natural_strain has 3 knots; the rods have 4": {"natural_strain": np.ones((7, 3, 3))},
+        "half_strain has the shape": {"half_strain": np.ones((7, 3, 3))},
+    }.items():
+        with pytest.raises(frisure.ArgumentError, match=message):
+            rest.jvp(**change)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="length has the dtype complex"):
+        rest.jvp(length=1j)
+    with pytest.raises(frisure.ArgumentError, match="derivatives=True"):
+        rods.settle(0.1).jvp(length=1.0)
+
+
+def test_the_bound_of_the_eigenvalue_is_one_without_weight_and_more_where_weight_stretches() -> None:
+    loss = np.ones((1, 16, 3))
+    curl: dict[str, Any] = {"curl_radius": 5e-3, "curl_pitch": 0.02, "derivatives": True}
+    free = rods.settle(0.15, gravity=0.0, **curl).vjp(loss)
+    assert free.eigenvalue_bound[0] == pytest.approx(1.0)
+    hanging = rods.settle(0.15, tangent=[0, 0, -1], **curl).vjp(loss)
+    assert hanging.eigenvalue_bound[0] > 1.5
+    assert rods.settle(0.15, **curl).vjp(0 * loss).eigenvalue_bound[0] == 1.0

@@ -10,6 +10,7 @@ import pickle
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import frisure
 import numpy as np
@@ -49,6 +50,23 @@ def test_a_hairstyle_like_another_is_the_same_as_one_by_itself(hair: frisure.Hai
     assert np.array_equal(alone.strands.points, like.strands.points)
     scene = scene.with_step("wet")
     assert np.array_equal(frisure.predict(scene).strands.points, frisure.predict(scene, like=like).strands.points)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"width": 10**20}, "width is 1000.*between 1 and"),
+        ({"width": 10.5}, "width is 10.5; it must be a whole number"),
+        ({"height": True}, "height is True"),
+        ({"paths": 2.5}, "paths is 2.5"),
+        ({"noise": "a"}, "noise is 'a'"),
+        ({"azimuth": "90 deg"}, "azimuth is '90 deg'; it must be a finite number of degrees"),
+        ({"clamp": 0}, "clamp is 0"),
+    ],
+)
+def test_wrong_arguments_of_a_picture_are_named(hair: frisure.Hairstyle, arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(frisure.ArgumentError, match=message):
+        hair.render(**arguments)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell how much memory is free")

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
+import pickle
+import pydoc
+import sys
 from typing import Any
 
 import frisure
@@ -117,7 +122,14 @@ def test_no_rods_are_no_error() -> None:
     ("arguments", "error", "message"),
     [
         ({"length": [0.1, 0.2, np.nan]}, ValueError, r"`length\[2\]`.*NaN"),
-        ({"length": [0.1, -0.2]}, ValueError, r"`length\[1\]`.*greater than zero"),
+        ({"length": [0.1, -0.2]}, ValueError, r"`length\[1\]` is wrong: length is -0.2 m; it must be between 1 um and 100 m"),
+        ({"length": 1e150}, ValueError, r"`length\[0\]` is wrong: length is 1e150 m; it must be between"),
+        ({"length": 0.1, "youngs_modulus": 1e-300}, ValueError, r"`youngs_modulus\[0\]`.*1e-300 Pa; it must be between 1 kPa"),
+        ({"length": 0.1, "diameter": 70}, ValueError, r"`diameter\[0\]`.*70.0 m; it must be between 10 nm and 10 cm"),
+        ({"length": 0.1, "gravity": [9.81, 1e300]}, ValueError, r"`gravity\[1\]`.*1e300"),
+        ({"length": 0.1, "curl_radius": 1e-300}, ValueError, r"`curl_radius\[0\]`.*rad/m"),
+        ({"length": 0.1, "natural_strain": [1e12, 0, 0]}, ValueError, r"`natural_strain\[0\]`.*1e7 rad/m"),
+        ({"length": 0.1, "root": [1e308, 0, 0]}, ValueError, r"`root\[0\]`.*1000 km"),
         ({"length": 0.1, "diameter": [7e-5, 0]}, ValueError, r"`diameter\[1\]`"),
         ({"length": 0.1, "axis_ratio": 0.5}, ValueError, r"`axis_ratio\[0\]`"),
         ({"length": 0.1, "youngs_modulus": [1e9, np.inf]}, ValueError, r"`youngs_modulus\[1\]`"),
@@ -125,6 +137,7 @@ def test_no_rods_are_no_error() -> None:
         ({"length": 0.1, "density": np.nan}, ValueError, r"`density\[0\]`"),
         ({"length": 0.1, "gravity": [-9.81]}, ValueError, r"`gravity\[0\]`"),
         ({"length": 0.1, "curl_radius": -1}, ValueError, r"`curl_radius\[0\]`"),
+        ({"length": 0.1, "tangent": [[0, 1, 0]], "d1": [0, 2, 0]}, ValueError, r"`d1\[0\]`"),
         ({"length": 0.1, "curl_radius": 1, "curl_pitch": np.nan}, ValueError, r"`curl_pitch\[0\]`"),
         ({"length": 0.1, "tangent": [[0, 0, 1], [0, 0, 0]]}, ValueError, r"`tangent\[1\]`"),
         ({"length": 0.1, "d1": [1, 0, 0]}, ValueError, r"`d1\[0\]`"),
@@ -134,6 +147,14 @@ def test_no_rods_are_no_error() -> None:
         ({"length": [[0.1]]}, ValueError, r"length has the shape \(1, 1\)"),
         ({"length": 0.1, "root": [1, 2]}, ValueError, "root has the shape"),
         ({"length": 0.1, "elements": 0}, ValueError, "elements is 0"),
+        ({"length": 0.1, "elements": 10**20}, ValueError, "elements is 1000.*between 1 and 10000"),
+        ({"length": 0.1, "elements": 15.5}, ValueError, "elements is 15.5; it must be a whole number"),
+        ({"length": 0.1, "elements": True}, ValueError, "elements is True"),
+        ({"length": 0.1, "elements": "a"}, ValueError, "elements is 'a'"),
+        ({"length": 0.1, "tolerance": "a"}, ValueError, "tolerance is 'a'"),
+        ({"length": 0.1, "curl_radius": 0.01, "natural_strain": [0, 0, 1]}, ValueError, "curl_radius and natural_strain"),
+        ({"length": 0.1, "curl_pitch": 0.01, "natural_strain": [0, 0, 1]}, ValueError, "curl_pitch and natural_strain"),
+        ({"length": 0.1, "curl_pitch": 0.01}, ValueError, "curl_pitch is given without curl_radius"),
         ({"length": 0.1, "elements": 15, "error": True}, ValueError, "even"),
         ({"length": 0.1, "tolerance": np.nan}, ValueError, "tolerance is nan"),
         ({"length": 0.1, "precision": "half"}, ValueError, "precision is 'half'"),
@@ -176,3 +197,88 @@ def test_a_soft_fibre_does_not_stand_upright() -> None:
         rods.inverse(np.stack([line, np.zeros((20, 3))]))
     with pytest.raises(frisure.ArgumentError, match="diameter has 2 values for 1 lines"):
         rods.inverse(line, diameter=[1e-4, 1e-4])
+
+
+def packed(array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """The same array as a field of packed records, which is not aligned."""
+    table = np.zeros(len(array), dtype=[("id", "i1"), ("value", "f8", array.shape[1:])])
+    table["value"] = array
+    found: np.ndarray[Any, Any] = table["value"]
+    assert not found.flags.aligned
+    return found
+
+
+def test_arrays_of_packed_records_are_copied() -> None:
+    length, tangent = np.linspace(0.05, 0.1, 4), fan(4)
+    plain = rods.settle(length, tangent=tangent, derivatives=True, **CURL)
+    rest = rods.settle(packed(length), tangent=packed(tangent), derivatives=True, **CURL)
+    assert plain.points is not None and np.array_equal(plain.energy, rest.energy)
+    strain = packed(np.ones((4, 3, 3)))
+    assert np.array_equal(rods.settle(length, natural_strain=strain).energy, rods.settle(length, natural_strain=np.ones((4, 3, 3))).energy)
+    loss = np.random.default_rng(1).normal(size=plain.points.shape)
+    assert np.array_equal(rest.vjp(packed(loss), packed(loss)).length, plain.vjp(loss, loss).length)
+    assert np.array_equal(rest.jvp(length=packed(length)).points, rest.jvp(length=length).points)
+    assert np.array_equal(rods.inverse(packed(plain.points)).length, rods.inverse(plain.points).length)
+    found = frisure.fit(packed(plain.points), arc_length=packed(np.linspace(0, 1, 31)[:, np.newaxis] @ [[1.0]])[:, 0])
+    assert len(found) == 4
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell how much memory is free")
+def test_what_has_no_room_is_refused_before_it_is_taken() -> None:
+    many, line = 2 * 10**8, np.linspace([0, 0, 0], [0, 0, -0.1], 2000)
+    told = r"bytes.*GB of memory, and .* free[\s\S]*about \d+ {} have room"
+    with pytest.raises(frisure.ArgumentError, match="200000000 rods need.*" + told.format("rods")):
+        rods.settle(np.broadcast_to(0.1, (many,)), points=False)
+    with pytest.raises(frisure.ArgumentError, match=told.format("rods")):
+        rods.settle(np.broadcast_to(0.1, (10**7,)), elements=10_000)
+    with pytest.raises(frisure.ArgumentError, match=told.format("lines")):
+        rods.inverse(np.broadcast_to(line, (10**7, 2000, 3)))
+    with pytest.raises(frisure.ArgumentError, match=told.format("points")):
+        frisure.fit(np.broadcast_to(line, (10**7, 2000, 3)))
+    with pytest.raises(frisure.ArgumentError, match=told.format("numbers of length")):
+        rods.settle(np.broadcast_to(np.float32(0.1), (10**12,)))
+
+
+def test_a_clamp_along_y_has_a_section_across_it() -> None:
+    curl = {"curl_radius": 5e-3, "curl_pitch": 1e-2, "elements": 30}
+    along = rods.settle(0.15, tangent=[[0, 1, 0], [1, 0, 0], [0, -2, 0]], **curl)
+    chosen = rods.settle(0.15, tangent=[0, 1, 0], d1=[1, 0, 0], **curl)
+    usual = rods.settle(0.15, tangent=[1, 0, 0], d1=[0, 1, 0], **curl)
+    assert along.points is not None and chosen.points is not None and usual.points is not None
+    assert along.stable.all() and np.array_equal(along.points[0], chosen.points[0])
+    assert np.array_equal(along.points[1], usual.points[0])
+    # A fan that meets y.
+    assert rods.settle(0.15, tangent=fan(4)).stable.all()
+
+
+def test_results_are_compared_as_objects_and_can_be_copied() -> None:
+    rest = rods.settle([0.1, 0.2], curl_radius=5e-3, curl_pitch=0.01, derivatives=True)
+    loss = np.ones((2, 16, 3))
+    by = rest.vjp(loss)
+    assert rest == rest and rest != copy.copy(rest) and hash(rest) != hash(by)
+    for twin in (copy.copy(rest), copy.deepcopy(rest)):
+        assert np.array_equal(twin.vjp(loss).length, by.length)
+    assert copy.deepcopy(rest).energy is not rest.energy
+    assert list(dataclasses.asdict(rest)) == ["points", "energy", "stable", "gradient_norm", "iterations", "error"]
+    assert np.array_equal(dataclasses.asdict(by)["length"], by.length)
+    again = pickle.loads(pickle.dumps(rest))
+    assert again != rest and np.array_equal(again.energy, rest.energy)
+
+
+def test_derivatives_are_those_of_what_was_given_then() -> None:
+    tangent, radius = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.3]]), np.array([5e-3, 6e-3])
+    rest = rods.settle(0.1, tangent=tangent, curl_radius=radius, curl_pitch=0.01, derivatives=True)
+    loss = np.ones((2, 16, 3))
+    before = rest.vjp(loss)
+    tangent[:], radius[:] = 7.0, 7.0
+    after = rest.vjp(loss)
+    assert np.array_equal(before.tangent, after.tangent)
+    assert before.curl_radius is not None and np.array_equal(before.curl_radius, after.curl_radius)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", [rods.Settled, rods.Gradient, rods.Motion, rods.Inverse, frisure.Fits, frisure.Measured])
+def test_help_has_every_field_with_its_meaning(kind: type) -> None:
+    text = pydoc.plain(pydoc.render_doc(kind)).split("Method resolution")[0].split("Methods defined")[0]
+    for field in dataclasses.fields(kind):
+        name = field.name.removesuffix("_sd")
+        assert f"`{name}`" in text, field.name

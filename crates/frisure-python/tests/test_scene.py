@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import errno
 import pickle
 from pathlib import Path
 
@@ -100,11 +101,99 @@ def test_a_wrong_value_leaves_the_scene_as_it_was() -> None:
     assert scene.text == TEXT
 
 
+def test_a_dict_replaces_a_table_however_it_is_written() -> None:
+    scene = frisure.presets["wavy"]
+    scene.hair.curl = {"radius": "5 mm", "pitch": "1 cm"}
+    assert scene.hair.curl.to_dict() == {"radius": "5 mm", "pitch": "1 cm"} and "# length =" in scene.text
+    scene.hair.curl = {"radius": "6 mm"}
+    assert scene.hair.curl.to_dict() == {"radius": "6 mm"}
+    scene.hair = {"type": "curly", "length": "10 cm", "fibre": {"diameter": "60 um"}, "curl": {"pitch": "2 cm"}}
+    assert scene.hair.to_dict() == {
+        "type": "curly", "length": "10 cm", "fibre": {"diameter": "60 um"}, "curl": {"pitch": "2 cm"},
+    }
+    scene["hair"] = {"length": "11 cm", "type": None}
+    assert scene.to_dict()["hair"]["length"] == "11 cm" and scene.hair.type is None and scene.hair.curl.radius is None
+    for text in ('[hair]\ncurl = { radius = "5 mm", pitch = "1 cm" }\n', '[hair.curl]\nradius = "5 mm"\npitch = "1 cm"\n', "seed = 1\n"):
+        scene = frisure.Scene(text)
+        scene.hair.curl = {"radius": "7 mm"}
+        assert scene.to_dict()["hair"]["curl"] == {"radius": "7 mm"}
+        scene.hair = frisure.Scene(TEXT).hair
+        assert scene.to_dict()["hair"] == {"length": "12 cm"}
+    regions = [{"where": "top", "length": "10 cm"}]
+    for text in ("seed = 1\n", '[[region]]\nwhere = "nape"\nlength = "5 cm"\n\n[[region]]\nwhere = "back"\nlength = "6 cm"\n'):
+        scene = frisure.Scene(text)
+        scene.region = regions
+        assert scene.region == regions
+        scene["region[0]"] = {"where": "nape", "length": "9 cm"}
+        assert scene.region == [{"where": "nape", "length": "9 cm"}]
+
+
+def test_an_error_after_an_edit_names_the_file_and_says_so(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(TEXT)
+    scene = frisure.Scene(file)
+    scene.hair.type = "wavy"
+    for wrong in (lambda: setattr(scene.hair, "length", "900 m"), lambda: scene.with_step("cut", below="knee")):
+        with pytest.raises(frisure.SceneError) as found:
+            wrong()
+    with pytest.raises(frisure.SceneError, match=r"mine\.toml \(edited\):3") as found:
+        scene.hair.length = "900 m"
+    assert (found.value.file, found.value.line) == (str(file), 3)
+    again = pickle.loads(pickle.dumps(scene))
+    assert again.file == scene.file == str(file)
+    with pytest.raises(frisure.SceneError, match=r"\(edited\)"):
+        again.hair.length = "900 m"
+    with pytest.raises(frisure.SceneError, match="<text>:"):
+        frisure.Scene(TEXT).hair.length = "900 m"
+
+
+def test_a_scene_is_saved_as_a_whole_or_not_at_all(tmp_path: Path, hair: frisure.Hairstyle) -> None:
+    file = tmp_path / "saved.toml"
+    file.write_text("before")
+    frisure.Scene(TEXT).save(file)
+    assert file.read_text() == TEXT and list(tmp_path.iterdir()) == [file]
+    for name in ("x.toml", "x.json", "x.png", "x.exr", "x.hair", "x.usdc", "x.npz"):
+        with pytest.raises(frisure.FailedError, match="nowhere"):
+            hair.save(tmp_path / "nowhere" / name)
+
+
+def test_folders_do_not_follow_the_working_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "heads").mkdir()
+    head = Path(__file__).parents[3] / "scenes" / "heads" / "female-head.obj"
+    (tmp_path / "heads" / "head.obj").write_bytes(head.read_bytes())
+    monkeypatch.chdir(tmp_path)
+    small = {"head": {"mesh": "heads/head.obj"}, "wisps": {"count": 6, "hairs": 20}}
+    Path("scene.toml").write_text('[head]\nmesh = "heads/head.obj"\n[wisps]\ncount = 6\nhairs = 20\n')
+    scenes = [frisure.Scene(small), frisure.Scene(small, folder="."), frisure.Scene("scene.toml")]
+    predicted = frisure.predict(scenes[0])
+    pickled = pickle.dumps(predicted)
+    monkeypatch.chdir("/")
+    assert [scene.folder for scene in scenes] == [tmp_path] * 3
+    assert len(predicted.wet().strands) == len(pickle.loads(pickled).strands) == 20
+    assert len(frisure.predict(scenes[2]).strands) == 20
+
+
+def test_keys_that_are_none_are_told() -> None:
+    scene = frisure.Scene(TEXT)
+    for key in ("hair[x]", "hair[", "a..b", "region[0]x"):
+        with pytest.raises(KeyError, match="is no key of a scene"):
+            scene[key]
+        assert key not in scene
+        with pytest.raises(frisure.ArgumentError, match="is no key of a scene"):
+            scene[key] = 3
+    with pytest.raises(AttributeError, match="does not give `hair.type`"):
+        del scene.hair.type
+    with pytest.raises(KeyError, match="does not give 'hair.type'"):
+        del scene["hair.type"]
+    with pytest.raises(TypeError, match="like is of the type int"):
+        frisure.predict(scene, like=3)  # type: ignore[arg-type]
+
+
 def test_a_scene_that_does_not_exist_is_named() -> None:
     with pytest.raises(FileNotFoundError, match="nowhere.toml") as missing:
         frisure.Scene("nowhere.toml")
     assert isinstance(missing.value, frisure.SceneError)
-    assert missing.value.file == "nowhere.toml"
+    assert missing.value.file == missing.value.filename == "nowhere.toml" and missing.value.errno == errno.ENOENT
     assert str(pickle.loads(pickle.dumps(missing.value))) == str(missing.value)
 
 

@@ -17,6 +17,9 @@ __all__ = [
     "SceneText",
     "StrandData",
     "__version__",
+    "after_fork",
+    "check_rods",
+    "check_room",
     "compute_part",
     "fit_fibres",
     "inverse_rods",
@@ -28,6 +31,7 @@ __all__ = [
     "read_png",
     "render",
     "render_png",
+    "run_batch",
     "run_command",
     "save_picture",
     "scene_keys",
@@ -44,7 +48,7 @@ class Memory:
 @final
 class SceneText:
     @staticmethod
-    def parse(text: str, name: str, folder: str | os.PathLike[str]) -> SceneText: ...
+    def parse(text: str, name: str, folder: str | os.PathLike[str], edited: bool) -> SceneText: ...
     @staticmethod
     def read(path: str | os.PathLike[str]) -> SceneText: ...
     @staticmethod
@@ -56,12 +60,15 @@ class SceneText:
     @property
     def folder(self) -> Path: ...
     @property
+    def edited(self) -> bool: ...
+    @property
     def hair_type(self) -> str: ...
     @property
     def step_count(self) -> int: ...
     def with_values(self, changes: Sequence[tuple[str, Any]]) -> SceneText: ...
     def with_step(self, name: str, value: Any) -> SceneText: ...
     def number(self, key: str) -> float | None: ...
+    def save(self, path: str | os.PathLike[str]) -> None: ...
 
 @final
 class Prediction:
@@ -111,7 +118,19 @@ class RodsAtRest:
         list[NDArray[np.float64]],
         list[NDArray[np.bool_]],
     ]: ...
+    def jvp(
+        self,
+        changes: Mapping[str, NDArray[np.float64] | None],
+        progress: _Progress | None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]: ...
 
+def after_fork() -> None: ...
+def check_room(things: str, count: int, each: float) -> None: ...
+def check_rods(
+    count: int,
+    fibres: Mapping[str, NDArray[np.float64]],
+    clamped: Mapping[str, NDArray[np.float64] | None],
+) -> None: ...
 def settle_rods(
     count: int,
     fibres: Mapping[str, NDArray[np.float64]],
@@ -163,6 +182,13 @@ def run_command(arguments: Sequence[str]) -> int: ...
 def missing_parts(
     spec: str | os.PathLike[str], folder: str | os.PathLike[str]
 ) -> tuple[int, list[int]]: ...
+def run_batch(
+    spec: str | os.PathLike[str] | tuple[str | Mapping[str, Any], str | os.PathLike[str]],
+    folder: str | os.PathLike[str],
+    lasts: bool,
+    threads: int | None,
+    progress: _Progress | None,
+) -> tuple[int, int, int, bool]: ...
 def compute_part(
     spec: str | os.PathLike[str],
     folder: str | os.PathLike[str],

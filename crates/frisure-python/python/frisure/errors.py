@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from typing import Any
 
 
@@ -53,10 +55,11 @@ class SceneError(FrisureError, ValueError):
 
 
 class SceneNotFoundError(SceneError, FileNotFoundError):
-    """There is no file of this scene; `file` is its path."""
+    """There is no file of this scene; `file` and `filename` are its path."""
 
     def __init__(self, text: str, file: str) -> None:
         SceneError.__init__(self, text, file=file)
+        self.errno, self.strerror, self.filename = errno.ENOENT, os.strerror(errno.ENOENT), file
 
     def __str__(self) -> str:
         return str(self.problem)

@@ -6,6 +6,7 @@ import functools
 import json
 import math
 import os
+import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Literal
@@ -13,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from frisure._check import real, whole
 from frisure._frisure import Prediction, render, render_png, save_picture
 from frisure.errors import ArgumentError
 from frisure.scene import Scene, SceneSource
@@ -20,6 +22,12 @@ from frisure.strands import Strands
 
 Progress = Callable[[str, float], object]
 """Called with the name of a stage and the fraction of it that is done; an exception that it raises ends the work."""
+
+_MOST_PIXELS = sys.maxsize
+"""Most pixels along a side that can be counted; memory allows fewer, and says how many."""
+
+_MOST_PATHS = 10_000_000
+"""Most paths of light per pixel, and bounces of one."""
 
 _NOTEBOOK_WIDTH = 450
 """Width in pixels of the picture in a notebook; chosen."""
@@ -38,6 +46,8 @@ def predict(scene: SceneSource, *, like: Hairstyle | None = None, progress: Prog
     """
     checked = scene.copy() if isinstance(scene, Scene) else Scene(scene)
     if like is not None:
+        if not isinstance(like, Hairstyle):
+            raise TypeError(f"like is of the type {type(like).__name__}; it must be a Hairstyle")
         return Hairstyle(checked, like._prediction.follow(checked._core, progress))
     return Hairstyle(checked, Prediction.of(checked._core, progress))
 
@@ -144,18 +154,17 @@ class Hairstyle:
         """
         if quality not in ("preview", "final"):
             raise ArgumentError(f'quality is {quality!r}; it must be "preview" or "final"')
-        for name, count in (("width", width), ("height", height), ("paths", paths), ("bounces", bounces)):
-            if count is not None and count < 1:
-                raise ArgumentError(f"{name} is {count}; it must be at least 1")
-        if not 0 <= noise <= 100:
-            raise ArgumentError(f"noise is {noise}; it must be between 0 and 100 percent")
-        if azimuth is not None and not math.isfinite(azimuth):
-            raise ArgumentError(f"azimuth is {azimuth}; it must be a finite number of degrees")
-        if clamp is not None and not clamp > 0:
-            raise ArgumentError(f"clamp is {clamp}; it must be above 0")
+        size = [
+            None if count is None else whole(name, count, 1, _MOST_PIXELS)
+            for name, count in (("width", width), ("height", height))
+        ]
+        paths, bounces = whole("paths", paths, 1, _MOST_PATHS), whole("bounces", bounces, 1, _MOST_PATHS)
+        noise = real("noise", noise, "a number between 0 and 100 percent", 0, 100)
+        if clamp is not None:
+            clamp = real("clamp", clamp, "a number above 0, or None", np.nextafter(0, 1))
         tracing = (paths, 0.01 * noise, bounces, clamp) if quality == "final" else None
-        turned = None if azimuth is None else math.radians(azimuth)
-        made = render(self._prediction, (width, height), turned, tracing, alpha, progress)
+        turned = None if azimuth is None else math.radians(real("azimuth", azimuth, "a finite number of degrees"))
+        made = render(self._prediction, (size[0], size[1]), turned, tracing, alpha, progress)
         return np.asarray(made)
 
     def step(

@@ -14,17 +14,20 @@ weight; nothing else touches it. All arrays are float64 in SI units; z points up
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from frisure._frisure import RodsAtRest, inverse_rods, settle_rods
+from frisure._check import array as _array
+from frisure._check import real, whole
+from frisure._frisure import RodsAtRest, check_rods, inverse_rods, settle_rods
 from frisure.errors import ArgumentError
 
-__all__ = ["Gradient", "Inverse", "Settled", "inverse", "settle"]
+__all__ = ["Gradient", "Inverse", "Motion", "Settled", "inverse", "settle"]
 
 Float64 = NDArray[np.float64]
 Progress = Callable[[str, float], object]
@@ -36,49 +39,77 @@ EXACT = 1e-10
 """Largest tolerance with derivatives: farther from rest they are slower to compute."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Gradient:
     """The derivatives of a loss by what H rods are made of, one row for each rod, also where an argument of `settle` was
-    one for all: its derivative is then the sum of the rows. Units are those of the loss over those of the argument."""
+    one for all: its derivative is then the sum of the rows. Units are those of the loss over those of the argument.
+
+    - `length` (H,), loss per m: all elements become longer in proportion, each with its natural strain.
+    - `diameter` (H,), loss per m, and `axis_ratio` (H,), loss per 1.
+    - `youngs_modulus`, `shear_modulus` (H,), loss per Pa, and `density` (H,), loss per kg/m³.
+    - `gravity` (H,), loss per m/s²: by its size, along -z; `gravity_vector` (H, 3), loss per m/s², by each component of the
+      acceleration (world).
+    - `curl_radius`, `curl_pitch` (H,), loss per m; None with `natural_strain`.
+    - `natural_strain`, loss per rad/m, in the shape of the argument: (H, 3) or (H, K, 3); with a curl (H, 3), by a strain that is the
+      same all along.
+    - `root` (H, 3), loss per m; `tangent`, `d1` (H, 3), loss per unit of the vector that was given.
+    - `root_rotation` (H, 3), loss per rad: by a rotation of the clamp about the root (world).
+    - `half_strain` (H, 2 elements, 3), loss per rad/m: by the natural strain of each half of an element.
+    - `eigenvalue_bound` (H,), without unit: the second variation of the whole energy over that of the elastic energy, along the change of
+      shape by which the loss meets the rod; the derivatives are as one over it. It is at least the smallest of all such quotients. That is
+      1 without weight; weight that stretches a rod makes it greater than 1, and where stability is lost it is 0. It is 1 for a loss
+      that asks nothing, and 0 where there are no derivatives.
+    - `regular` (H,) bool: whether the smallest quotient is at least 1e-3; nearer to a loss of stability derivatives are large and hold
+      for tiny changes only.
+    - `exists` (H,) bool: whether the shape is a minimum and has derivatives; where not, they are zero.
+
+    Two gradients are equal if they are the same object: compare their arrays.
+    """
 
     length: Float64
-    """(H,); all elements become longer in proportion, each with its natural strain."""
     diameter: Float64
     axis_ratio: Float64
     youngs_modulus: Float64
     shear_modulus: Float64
     density: Float64
     gravity: Float64
-    """(H,)"""
     curl_radius: Float64 | None
     curl_pitch: Float64 | None
-    """(H,); None with `natural_strain`."""
     natural_strain: Float64
-    """By the argument, (H, 3) or (H, K, 3); (H, 3) with a curl: by a strain that is the same all along."""
     root: Float64
     tangent: Float64
     d1: Float64
-    """(H, 3)"""
     root_rotation: Float64
-    """By a rotation of the clamp about the root (loss per rad, world), (H, 3)."""
     half_strain: Float64
-    """By the natural strain of each half of an element, (H, 2 elements, 3)."""
+    gravity_vector: Float64
     eigenvalue_bound: Float64
-    """At least the smallest eigenvalue of the second variation over that of the elastic energy, 1 without loads and 0 where
-    stability is lost: the derivatives grow as one over it, (H,)."""
     regular: NDArray[np.bool_]
-    """Whether the smallest eigenvalue itself is at least 1e-3; nearer to a loss of stability derivatives are large and hold for tiny
-    changes only, (H,)."""
     exists: NDArray[np.bool_]
-    """Whether the shape is a minimum and has derivatives; where not, they are zero, (H,)."""
 
     def __len__(self) -> int:
         return len(self.length)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """How H rods at rest, with P nodes each, move along a change of what they are made of, to first order.
+
+    - `points` (H, P, 3), m: how far each node moves, per unit of the change.
+    - `frames` (H, P, 3), rad: the rotation of the frame of each node (world).
+    - `exists` (H,) bool: whether the shape is a minimum and has derivatives; where not, nothing moves.
+    """
+
+    points: Float64
+    frames: Float64
+    exists: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+@dataclass(frozen=True, eq=False)
 class _Kept:
-    """What the derivatives of settled rods need."""
+    """What the derivatives of settled rods need. It never changes, and stays in its process."""
 
     at_rest: RodsAtRest
     nodes: int
@@ -91,30 +122,51 @@ class _Kept:
     """Whether the natural strain was given at knots, (H, K, 3)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Settled:
-    """H rods at rest, with P = elements + 1 nodes each."""
+    """H rods at rest, with P = elements + 1 nodes each.
+
+    - `points` (H, P, 3), m: nodes from root to tip; None with `points=False`.
+    - `energy` (H,), J: elastic energy and that of the weight.
+    - `stable` (H,) bool: whether the shape is a minimum of the energy.
+    - `gradient_norm` (H,): largest derivative of the energy, as a fraction of the moment of the weight.
+    - `iterations` (H,) uint32: iterations of the solver.
+    - `error` (H,), m: estimated largest error of a node from the division into elements; None without `error=True`.
+
+    With `derivatives=True`, `vjp` and `jvp` give the derivatives; copies have them, too, and what is pickled has not. Two results
+    are equal if they are the same object: compare their arrays.
+    """
 
     points: Float64 | None
-    """Nodes from root to tip (m), (H, P, 3); None with `points=False`."""
     energy: Float64
-    """Elastic energy and that of the weight (J), (H,)."""
     stable: NDArray[np.bool_]
-    """Whether the shape is a minimum of the energy, (H,)."""
     gradient_norm: Float64
-    """Largest derivative of the energy, as a fraction of the moment of the weight, (H,)."""
     iterations: NDArray[np.uint32]
-    """Iterations of the solver, (H,)."""
     error: Float64 | None
-    """Estimated largest error (m) of a node from the division into elements, (H,); None without `error=True`."""
-    _kept: _Kept | None = field(default=None, repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.energy)
 
     def __getstate__(self) -> dict[str, Any]:
         # What derivatives need stays in this process.
-        return {**self.__dict__, "_kept": None}
+        return {name: value for name, value in self.__dict__.items() if name != "_kept"}
+
+    def __copy__(self) -> Settled:
+        new = object.__new__(Settled)
+        new.__dict__.update(self.__dict__)
+        return new
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Settled:
+        new = self.__copy__()
+        new.__dict__.update({name: copy.deepcopy(value, memo) for name, value in self.__getstate__().items()})
+        return new
+
+    def _differentiable(self) -> _Kept:
+        # No field: it is nothing that a user reads, and a copy of it has no use.
+        kept: _Kept | None = self.__dict__.get("_kept")
+        if kept is None:
+            raise ArgumentError("there is nothing to differentiate; call settle(..., derivatives=True) in this process")
+        return kept
 
     def vjp(
         self, by_points: ArrayLike, by_frames: ArrayLike | None = None, *, progress: Progress | None = None
@@ -131,14 +183,12 @@ class Settled:
         >>> bool(rest.vjp(height_of_the_tip).density[0] < 0)
         True
         """
-        kept = self._kept
-        if kept is None:
-            raise ArgumentError("there is nothing to differentiate; call settle(..., derivatives=True) in this process")
+        kept = self._differentiable()
         shape = (len(self), kept.nodes, 3)
         loss = _loss("by_points", by_points, shape)
         frames = None if by_frames is None else _loss("by_frames", by_frames, shape)
         halves, vectors, material, section, numbers, flags = kept.at_rest.vjp(loss, frames, progress)
-        _, root, rotation, _ = vectors
+        by_gravity, root, rotation, _ = vectors
         length, gravity, bound = numbers
         uniform = np.asarray(halves.sum(axis=1), dtype=np.float64)
         strain, by_radius, by_pitch = uniform, None, None
@@ -166,10 +216,74 @@ class Settled:
             d1=d1,
             root_rotation=rotation,
             half_strain=halves,
+            gravity_vector=by_gravity,
             eigenvalue_bound=bound,
             regular=flags[0],
             exists=flags[1],
         )
+
+    def jvp(
+        self,
+        *,
+        length: ArrayLike | None = None,
+        diameter: ArrayLike | None = None,
+        axis_ratio: ArrayLike | None = None,
+        youngs_modulus: ArrayLike | None = None,
+        shear_modulus: ArrayLike | None = None,
+        density: ArrayLike | None = None,
+        gravity: ArrayLike | None = None,
+        gravity_vector: ArrayLike | None = None,
+        curl_radius: ArrayLike | None = None,
+        curl_pitch: ArrayLike | None = None,
+        natural_strain: ArrayLike | None = None,
+        half_strain: ArrayLike | None = None,
+        root: ArrayLike | None = None,
+        tangent: ArrayLike | None = None,
+        d1: ArrayLike | None = None,
+        root_rotation: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> Motion:
+        """How the nodes move along changes of the arguments of `settle`, which was called with `derivatives=True`.
+
+        Each argument is a change in its unit, in the shape of the same field of `Gradient` or one for all rods: a number or (H,), (3,) or
+        (H, 3), and for `natural_strain` (3,), (H, 3) or, at the K knots that were given, (H, K, 3). Changes of several arguments
+        add up. The products are exact to rounding: of them and a loss, as the derivatives of that loss by `vjp` and the changes.
+
+        >>> rest = settle(0.1, curl_radius=0.01, curl_pitch=0.02, derivatives=True)
+        >>> bool(rest.jvp(density=1.0).points[0, -1, 2] < 0)              # m per kg/m³: the tip of a heavier hair is lower
+        True
+        """
+        kept = self._differentiable()
+        changes: dict[str, Any] = {}
+        numbers = {
+            "length": length, "diameter": diameter, "axis_ratio": axis_ratio, "youngs_modulus": youngs_modulus,
+            "shear_modulus": shear_modulus, "density": density, "gravity": gravity, "curl_radius": curl_radius,
+            "curl_pitch": curl_pitch,
+        }
+        vectors = {
+            "gravity_vector": gravity_vector, "root": root, "tangent": tangent, "d1": d1, "root_rotation": root_rotation,
+        }
+        for name, value in numbers.items():
+            changes[name] = None if value is None else _change(name, _numbers(name, value), len(self))
+        for name, value in vectors.items():
+            changes[name] = None if value is None else _change(name, _vectors(name, value), len(self))
+        turned = _turned(changes.pop("tangent"), changes.pop("d1"), kept.tangent, kept.d1)
+        changes["root_rotation"] = _sum(changes["root_rotation"], turned)
+        radius, pitch = changes.pop("curl_radius"), changes.pop("curl_pitch")
+        if kept.natural_strain is not None and not (radius is None and pitch is None):
+            raise ArgumentError("the rods have a natural_strain, and no curl_radius or curl_pitch to change")
+        strain = None
+        if radius is not None or pitch is not None:
+            strain = _strain_of_curl(radius, pitch, kept.curl_radius, kept.curl_pitch)[:, np.newaxis]
+        if natural_strain is not None:
+            strain = _sum(strain, _by_halves(kept, _change("natural_strain", _profiles("natural_strain", natural_strain), len(self))))
+        if half_strain is not None:
+            halves = _change("half_strain", _profiles("half_strain", half_strain), len(self))
+            if halves.shape[1] != 2 * (kept.nodes - 1):
+                raise ArgumentError(f"half_strain has the shape {halves.shape}; it must be (H, {2 * (kept.nodes - 1)}, 3)")
+            strain = _sum(strain, halves)
+        changes["strain"] = strain
+        return Motion(*kept.at_rest.jvp(changes, progress))
 
 
 def _loss(name: str, value: ArrayLike, shape: tuple[int, int, int]) -> Float64:
@@ -180,6 +294,64 @@ def _loss(name: str, value: ArrayLike, shape: tuple[int, int, int]) -> Float64:
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise ArgumentError(f"{name}{list(index)} is {array[index]}; it must be finite")
     return array
+
+
+def _change(name: str, value: Float64, count: int) -> Float64:
+    """A change with a row for each rod, or one for all."""
+    if len(value) not in (1, count):
+        raise ArgumentError(f"{name} has {len(value)} values for {count} rods; it must have as many, or one")
+    if not np.isfinite(value).all():
+        index = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
+        raise ArgumentError(f"{name}{list(index)} is {value[index]}; it must be finite")
+    return value
+
+
+def _sum(a: Float64 | None, b: Float64 | None) -> Float64 | None:
+    if a is None or b is None:
+        return b if a is None else a
+    return np.asarray(a + b, dtype=np.float64)
+
+
+def _strain_of_curl(
+    by_radius: Float64 | None, by_pitch: Float64 | None, radius: Float64, pitch: Float64
+) -> Float64:
+    """The change of the strain of a helix, (H, 3), by changes of radius and pitch, (H,): the transpose of `_by_curl`."""
+    p = pitch / (2 * np.pi)
+    finite = np.isfinite(radius)
+    r = np.where(finite, radius, 1.0)
+    square = (r**2 + p**2) ** 2
+    away, twice = p**2 - r**2, 2 * r * p
+    dr = 0.0 if by_radius is None else by_radius
+    dp = 0.0 if by_pitch is None else by_pitch / (2 * np.pi)
+    curvature, torsion = (dr * away - dp * twice) / square, (-dr * twice - dp * away) / square
+    changes = np.stack([curvature, 0 * curvature, torsion], axis=1)
+    return np.asarray(np.where(finite[:, np.newaxis], changes, 0.0), dtype=np.float64)
+
+
+def _by_halves(kept: _Kept, change: Float64) -> Float64:
+    """The change of the natural strain of the halves of elements, (H, 2 elements, 3) or all along (H, 1, 3), by one of the argument."""
+    knots = 1 if kept.natural_strain is None else kept.natural_strain.shape[1]
+    if change.shape[1] == 1:
+        return change
+    if change.shape[1] != knots:
+        raise ArgumentError(f"natural_strain has {change.shape[1]} knots; the rods have {knots}")
+    weights = _knot_weights(2 * (kept.nodes - 1), knots)
+    return np.asarray(np.einsum("hkc,nk->hnc", change, weights), dtype=np.float64)
+
+
+def _turned(tangent: Float64 | None, d1: Float64 | None, kept_tangent: Float64, kept_d1: Float64) -> Float64 | None:
+    """The rotation of the clamp (rad, world), (H, 3), by changes of the tangent and of d1: the transpose of `_by_clamp`."""
+    if tangent is None and d1 is None:
+        return None
+    size, t, along, width, e1, e2 = _clamp(kept_tangent, kept_d1)
+
+    def part(vector: Float64, axis: Float64) -> Float64:
+        return np.asarray((vector * axis).sum(axis=1, keepdims=True))
+
+    change = np.zeros((1, 3)) if tangent is None else tangent / size
+    aside = np.zeros((1, 3)) if d1 is None else d1
+    about = part(aside, e2) / width - along / width * part(change, e2)
+    return np.asarray(-part(change, e2) * e1 + part(change, e1) * e2 + about * t, dtype=np.float64)
 
 
 def _by_curl(by_strain: Float64, radius: Float64, pitch: Float64) -> tuple[Float64, Float64]:
@@ -212,49 +384,49 @@ def _knot_weights(halves: int, knots: int) -> Float64:
 
 def _by_clamp(by_rotation: Float64, tangent: Float64, d1: Float64) -> tuple[Float64, Float64]:
     """The derivatives by the tangent and by d1, (H, 3), from those by a rotation of the frame that they make."""
-    size = np.linalg.norm(tangent, axis=1, keepdims=True)
-    t = tangent / size
-    along = (d1 * t).sum(axis=1, keepdims=True)
-    side = d1 - along * t
-    width = np.linalg.norm(side, axis=1, keepdims=True)
-    e1 = side / width
-    e2 = np.cross(t, e1)
+    size, t, along, width, e1, e2 = _clamp(tangent, d1)
     about = [(by_rotation * axis).sum(axis=1, keepdims=True) for axis in (e1, e2, t)]
     # The tangent turns the frame about e1 and e2; d1, and the tangent by what of it d1 has, about the tangent.
     by_tangent = (-about[0] * e2 + about[1] * e1 - about[2] * along / width * e2) / size
     return by_tangent, np.broadcast_to(about[2] / width * e2, by_tangent.shape).copy()
 
 
-@dataclass(frozen=True)
+def _clamp(
+    tangent: Float64, d1: Float64
+) -> tuple[Float64, Float64, Float64, Float64, Float64, Float64]:
+    """Length and direction of the tangent, the parts of d1 along it and across, and the frame's axes d1 and d2; a row for each rod."""
+    size = np.asarray(np.linalg.norm(tangent, axis=1, keepdims=True), dtype=np.float64)
+    t = tangent / size
+    along = np.asarray((d1 * t).sum(axis=1, keepdims=True), dtype=np.float64)
+    side = d1 - along * t
+    width = np.asarray(np.linalg.norm(side, axis=1, keepdims=True), dtype=np.float64)
+    e1 = side / width
+    return size, t, along, width, e1, np.cross(t, e1)
+
+
+@dataclass(frozen=True, eq=False)
 class Inverse:
-    """The fibres that hang in H given shapes of P points."""
+    """The fibres that hang in H given shapes of P points.
+
+    - `length` (H,), m.
+    - `natural_strain` (H, P, 3), rad/m: natural curvatures about d1 and d2, and natural twist, at P knots that divide the length evenly.
+    - `frame` (H, 3, 3): the frame of the root, rows d1, d2 and tangent, unit vectors.
+    - `stable` (H,) bool: whether the fibre is stable in the given shape.
+    - `error` (H,), m: largest distance of a given point from where the fibre rests.
+    - `stiffness_needed` (H,): least factor on the stiffness with which the given shape is stable; 1 if it is stable as it is.
+
+    Two results are equal if they are the same object: compare their arrays.
+    """
 
     length: Float64
-    """Length (m), (H,)."""
     natural_strain: Float64
-    """Natural curvatures about d1 and d2, and natural twist (rad/m), at P knots that divide the length evenly, (H, P, 3)."""
     frame: Float64
-    """Frame of the root, rows d1, d2 and tangent, (H, 3, 3)."""
     stable: NDArray[np.bool_]
-    """Whether the fibre is stable in the given shape, (H,)."""
     error: Float64
-    """Largest distance (m) of a given point from where the fibre rests, (H,)."""
     stiffness_needed: Float64
-    """Least factor on the stiffness with which the given shape is stable; 1 if it is stable as it is, (H,)."""
 
     def __len__(self) -> int:
         return len(self.length)
-
-
-def _array(name: str, value: ArrayLike) -> Float64:
-    """Real numbers as float64, without a copy where they are that already."""
-    try:
-        array = np.asarray(value)
-    except ValueError as error:
-        raise ArgumentError(f"{name} is no array of numbers: {error}") from None
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name} has the dtype {array.dtype}; it must be real numbers in SI units")
-    return array.astype(np.float64, copy=False)
 
 
 def _numbers(name: str, value: ArrayLike) -> Float64:
@@ -322,12 +494,12 @@ def settle(
     shear_modulus: ArrayLike = 0.9e9,
     density: ArrayLike = 1300.0,
     gravity: ArrayLike = 9.81,
-    curl_radius: ArrayLike = np.inf,
-    curl_pitch: ArrayLike = 0.0,
+    curl_radius: ArrayLike | None = None,
+    curl_pitch: ArrayLike | None = None,
     natural_strain: ArrayLike | None = None,
     root: ArrayLike = (0.0, 0.0, 0.0),
     tangent: ArrayLike = (1.0, 0.0, 0.0),
-    d1: ArrayLike = (0.0, 1.0, 0.0),
+    d1: ArrayLike | None = None,
     elements: int = 15,
     tolerance: float = 1e-8,
     precision: Literal["double", "single"] = "double",
@@ -344,61 +516,118 @@ def settle(
     - `length` (m); `diameter` (m), of the circle of the same area; `axis_ratio` of the section, at least 1.
     - `youngs_modulus`, `shear_modulus` (Pa), `density` (kg/m³), `gravity` (m/s², along -z). The defaults are those of the
       hair types.
-    - The natural shape: a helix with `curl_radius` (m, infinite for straight hair) and `curl_pitch` (m per turn, negative
-      for a left-handed one); or `natural_strain` (rad/m): curvatures about d1 and d2 and twist, (3,), (H, 3), or
+    - The natural shape: straight; a helix with `curl_radius` (m, infinite for straight hair) and `curl_pitch` (m per turn, negative
+      for a left-handed one, 0 for a circle); or `natural_strain` (rad/m): curvatures about d1 and d2 and twist, (3,), (H, 3), or
       (H, K, 3) at K knots that divide the length evenly.
     - The clamp: `root` (m), the `tangent` there, and `d1`, the direction of the section's longer axis; they
-      need not be normalised, nor at right angles.
+      need not be normalised, nor at right angles. By default d1 is y, and x where the tangent is along y.
     - `elements` of each rod: 3.5 per turn of a curl keep the whole rod within some tenths of a millimetre.
     - `tolerance`: the `gradient_norm` at which a rod is at rest. `precision="single"` iterates in single precision first,
       to the same result within the tolerance.
     - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements.
-    - `derivatives=True` keeps the rods for `Settled.vjp`, and brings them to rest to 1e-10 at least.
+    - `derivatives=True` keeps the rods for `Settled.vjp` and `Settled.jvp`, and brings them to rest to 1e-10 at least.
 
-    Raises `ArgumentError` with the argument and the index of the first rod that cannot be made.
+    Lengths may be 1 um to 100 m, diameters 10 nm to 10 cm, moduli 1 kPa to 10 TPa, gravity up to 10 000 m/s².
+
+    Raises `ArgumentError` with the argument and the index of the first rod that cannot be made, and if the rods have no room in memory.
     """
-    fibres = _fibres(diameter, axis_ratio, youngs_modulus, shear_modulus, density, gravity)
-    clamped: dict[str, Any] = {
-        "length": _numbers("length", length),
-        "root": _vectors("root", root),
-        "tangent": _vectors("tangent", tangent),
-        "d1": _vectors("d1", d1),
-        "curl_radius": _numbers("curl_radius", curl_radius),
-        "curl_pitch": _numbers("curl_pitch", curl_pitch),
-    }
-    if natural_strain is not None:
-        clamped["natural_strain"] = _profiles("natural_strain", natural_strain)
-    count = _count(fibres | clamped)
-    clamped.setdefault("natural_strain", None)
-    if not 1 <= elements <= MAX_ELEMENTS:
-        raise ArgumentError(f"elements is {elements}; it must be between 1 and {MAX_ELEMENTS}")
+    elements, precision = _options(elements, precision)
     if error and elements % 2:
         raise ArgumentError(f"elements is {elements}; with error=True it must be even")
-    if not tolerance > 0:
-        raise ArgumentError(f"tolerance is {tolerance}; it must be greater than 0")
-    if precision not in ("double", "single"):
-        raise ArgumentError(f'precision is {precision!r}; it must be "double" or "single"')
+    tolerance = real("tolerance", tolerance, "a number greater than 0", np.nextafter(0, 1))
+    fibres = _fibres(diameter, axis_ratio, youngs_modulus, shear_modulus, density, gravity)
+    clamped = _clamped(length, root, tangent, d1, curl_radius, curl_pitch, natural_strain)
+    count = _count({name: array for name, array in (fibres | clamped).items() if array is not None})
     options = {
-        "elements": int(elements),
-        "tolerance": min(float(tolerance), EXACT) if derivatives else float(tolerance),
+        "elements": elements,
+        "tolerance": min(tolerance, EXACT) if derivatives else tolerance,
         "single": precision == "single",
         "points": bool(points),
         "error": bool(error),
         "derivatives": bool(derivatives),
     }
     arrays = settle_rods(count, fibres, clamped, options, progress)
-    rods = arrays[-1]
-    kept = rods and _Kept(
-        rods,
-        elements + 1,
-        clamped["tangent"],
-        clamped["d1"],
-        clamped["curl_radius"],
-        clamped["curl_pitch"],
-        clamped["natural_strain"],
-        knots=np.ndim(natural_strain if natural_strain is not None else 0) == 3,
-    )
-    return Settled(*arrays[:-1], kept)
+    settled, rods = Settled(*arrays[:-1]), arrays[-1]
+    if rods is not None:
+        # Copies: the caller may change the arguments before it asks for derivatives.
+        kept: dict[str, Any] = {name: None if clamped[name] is None else clamped[name].copy() for name in _DERIVED}
+        knots = np.ndim(natural_strain if natural_strain is not None else 0) == 3
+        settled.__dict__["_kept"] = _Kept(rods, elements + 1, **kept, knots=knots)
+    return settled
+
+
+_DERIVED = ("tangent", "d1", "curl_radius", "curl_pitch", "natural_strain")
+"""The arguments from which the derivatives by themselves are computed."""
+
+
+def _options(elements: Any, precision: Any) -> tuple[int, Any]:
+    if precision not in ("double", "single"):
+        raise ArgumentError(f'precision is {precision!r}; it must be "double" or "single"')
+    return whole("elements", elements, 1, MAX_ELEMENTS), precision
+
+
+def _natural(given: Mapping[str, Any]) -> None:
+    """Refuses a curl beside a natural strain, and a pitch of no curl; `given` has those that are given."""
+    if "natural_strain" in given:
+        for name in ("curl_radius", "curl_pitch"):
+            if name in given:
+                raise ArgumentError(f"{name} and natural_strain are both given; the natural shape is one or the other")
+    elif "curl_pitch" in given and "curl_radius" not in given:
+        raise ArgumentError("curl_pitch is given without curl_radius; a curl has both")
+
+
+def _clamped(
+    length: ArrayLike,
+    root: ArrayLike,
+    tangent: ArrayLike,
+    d1: ArrayLike | None,
+    curl_radius: ArrayLike | None,
+    curl_pitch: ArrayLike | None,
+    natural_strain: ArrayLike | None,
+) -> dict[str, Any]:
+    natural = {"curl_radius": curl_radius, "curl_pitch": curl_pitch, "natural_strain": natural_strain}
+    _natural({name: value for name, value in natural.items() if value is not None})
+    along = _vectors("tangent", tangent)
+    return {
+        "length": _numbers("length", length),
+        "root": _vectors("root", root),
+        "tangent": along,
+        "d1": _across(along) if d1 is None else _vectors("d1", d1),
+        "curl_radius": _numbers("curl_radius", np.inf if curl_radius is None else curl_radius),
+        "curl_pitch": _numbers("curl_pitch", 0.0 if curl_pitch is None else curl_pitch),
+        "natural_strain": None if natural_strain is None else _profiles("natural_strain", natural_strain),
+    }
+
+
+def _across(tangent: Float64) -> Float64:
+    """The d1 of those that are given none, (1, 3) or (H, 3): y, or x where the tangent is along y."""
+    y = np.array([[0.0, 1.0, 0.0]])
+    aside = np.maximum(np.abs(tangent[:, 0]), np.abs(tangent[:, 2]))
+    along = (aside <= 1e-6 * np.abs(tangent[:, 1])) & (tangent[:, 1] != 0)
+    if not along.any():
+        return y
+    return np.where(along[:, np.newaxis], [[1.0, 0.0, 0.0]], y)
+
+
+def _check(arguments: dict[str, Any]) -> None:
+    """Checks arguments of `settle` without solving anything."""
+    fibre = {name: arguments.get(name, value) for name, value in _FIBRE.items()}
+    fibres = _fibres(**fibre)
+    clamp: dict[str, Any] = {"root": (0.0, 0.0, 0.0), "tangent": (1.0, 0.0, 0.0), "d1": None} | {name: None for name in _DERIVED[2:]}
+    clamped = _clamped(arguments["length"], **{name: arguments.get(name, value) for name, value in clamp.items()})
+    count = _count({name: array for name, array in (fibres | clamped).items() if array is not None})
+    check_rods(count, fibres, clamped)
+
+
+_FIBRE = {
+    "diameter": 70e-6,
+    "axis_ratio": 1.0,
+    "youngs_modulus": 3.9e9,
+    "shear_modulus": 0.9e9,
+    "density": 1300.0,
+    "gravity": 9.81,
+}
+"""The fibre of `settle` by default."""
 
 
 def inverse(
@@ -431,6 +660,5 @@ def inverse(
     for name, array in fibres.items():
         if len(array) not in (1, len(lines)):
             raise ArgumentError(f"{name} has {len(array)} values for {len(lines)} lines; it must have as many, or one")
-    if not 1e-9 <= accuracy <= 1:
-        raise ArgumentError(f"accuracy is {accuracy}; it must be between 1e-9 and 1 m")
-    return Inverse(*inverse_rods(lines, fibres, float(accuracy), progress))
+    accuracy = real("accuracy", accuracy, "a number between 1e-9 and 1 m", 1e-9, 1)
+    return Inverse(*inverse_rods(lines, fibres, accuracy, progress))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Union
 
 from frisure._frisure import SceneText, scene_keys
+from frisure.errors import ArgumentError
 
 SceneSource = Union["Scene", Mapping[str, Any], "os.PathLike[str]", str]
 """What a scene is made from: another one, a dict, a path, or text in TOML (a str with a line break)."""
@@ -27,9 +28,11 @@ def _parts(path: str) -> list[str | int]:
     """The steps of a path such as `region[0].length`."""
     parts: list[str | int] = []
     for step in path.split("."):
-        name, *indices = re.split(r"[\[\]]+", step.rstrip("]"))
-        parts.append(name)
-        parts.extend(int(index) for index in indices)
+        found = re.fullmatch(r"([^\[\]]+)((?:\[\d+\])*)", step)
+        if found is None:
+            raise KeyError(f"{path!r} is no key of a scene: names have dots between them, and items of lists an index, as in 'region[0].length'")
+        parts.append(found[1])
+        parts.extend(int(index) for index in re.findall(r"\d+", found[2]))
     return parts
 
 
@@ -38,7 +41,7 @@ class Section(MutableMapping[str, Any]):
 
     `section.length` and `section["length"]` are what the scene says, as it is written: `"28 cm"`. A key that the scene
     leaves out is `None` as an attribute and a `KeyError` as an item; `frisure.Scene.number` tells its value. Setting a
-    key checks it at once, and `None` removes it.
+    key checks it at once, `None` removes it, and a dict replaces a table.
     """
 
     _scene: Scene
@@ -87,6 +90,8 @@ class Section(MutableMapping[str, Any]):
             self[name] = value
 
     def __delattr__(self, name: str) -> None:
+        if self._scene._find(self._key(name)) is None:
+            raise AttributeError(f"the scene does not give `{self._key(name)}`")
         del self[name]
 
     def __dir__(self) -> list[str]:
@@ -103,7 +108,7 @@ class Section(MutableMapping[str, Any]):
 
     def __delitem__(self, name: str) -> None:
         if self._scene._find(self._key(name)) is None:
-            raise KeyError(self._key(name))
+            raise KeyError(f"the scene does not give {self._key(name)!r}")
         self._scene._change([(self._key(name), None)])
 
     def __iter__(self) -> Iterator[str]:
@@ -136,7 +141,7 @@ class Scene(Section):
     """A scene: hair, head, steps, look; `docs/scene.md` has all keys.
 
     It is made from another scene, a dict, a path (`os.PathLike`, or a str without a line break), or text in TOML.
-    Paths in a dict or a text are relative to `folder`, by default the working directory.
+    Paths in a dict or a text are relative to `folder`, by default the working directory at the time the scene is made.
 
     >>> scene = Scene({"hair": {"type": "caucasian-curly"}})
     >>> scene.hair.length = "20 cm"
@@ -157,7 +162,7 @@ class Scene(Section):
         elif isinstance(source, Mapping):
             core = SceneText.from_mapping(source, within)
         elif isinstance(source, str) and "\n" in source:
-            core = SceneText.parse(source, "<text>", within)
+            core = SceneText.parse(source, "<text>", within, False)
         elif isinstance(source, (str, os.PathLike)):
             core = SceneText.read(Path(source))
         else:
@@ -174,7 +179,7 @@ class Scene(Section):
         folder: str | os.PathLike[str] | None = None,
     ) -> Scene:
         """The scene of a text in TOML; errors call it `file`."""
-        return cls._of(SceneText.parse(text, file, Path(folder) if folder is not None else Path()))
+        return cls._of(SceneText.parse(text, file, Path(folder) if folder is not None else Path(), False))
 
     @classmethod
     def _of(cls, core: SceneText) -> Scene:
@@ -200,7 +205,26 @@ class Scene(Section):
         return found
 
     def _change(self, changes: list[tuple[str, Any]]) -> None:
-        self._set(self._core.with_values(changes))
+        leaves = [leaf for path, value in changes for leaf in self._leaves(path, value)]
+        self._set(self._core.with_values(leaves))
+
+    def _leaves(self, path: str, value: Any) -> list[tuple[str, Any]]:
+        """The changes that replace what is at a path: of a table that is there, key by key, since it may be written under a heading."""
+        if not path:
+            raise ArgumentError("a key has no name")
+        try:
+            there = self._find(path)
+        except KeyError as error:
+            raise ArgumentError(error.args[0]) from None
+        if isinstance(value, (list, tuple)) and isinstance(there, list) and any(isinstance(item, dict) for item in there):
+            return [(path, None), (path, value)]
+        if not isinstance(value, Mapping) or not isinstance(there, dict):
+            return [] if value is None and there is None else [(path, value)]
+        if isinstance(value, Section):
+            value = value.to_dict()
+        gone = [(f"{path}.{key}", None) for key in there if value.get(key) is None]
+        kept = [leaf for key, item in value.items() if item is not None for leaf in self._leaves(f"{path}.{key}", item)]
+        return gone + kept
 
     @property
     def text(self) -> str:
@@ -209,12 +233,12 @@ class Scene(Section):
 
     @property
     def file(self) -> str:
-        """What errors call the scene: the path of its file, if it has one."""
+        """What errors call the scene: the path of its file, if it has one. Where the text was edited since it was read, they say so."""
         return self._core.name
 
     @property
     def folder(self) -> Path:
-        """The folder that paths in the scene are relative to."""
+        """The folder that paths in the scene are relative to; absolute."""
         return Path(self._core.folder)
 
     def number(self, key: str) -> float:
@@ -234,8 +258,8 @@ class Scene(Section):
         return Scene._of(self._core.with_step(operation, named if value is None else value))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the text to a file."""
-        Path(path).write_text(self.text, encoding="utf-8")
+        """Writes the text to a file, as a whole or not at all; `FailedError` where it cannot be written."""
+        self._core.save(Path(path))
 
     def copy(self) -> Scene:
         """Another scene that is the same; changes of one do not change the other."""
@@ -247,7 +271,7 @@ class Scene(Section):
         return Scene(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self.text, self.file, os.fspath(self.folder))
+        return _restored, (self.text, self.file, os.fspath(self.folder), self._core.edited)
 
     def __repr__(self) -> str:
         steps = self._core.step_count
@@ -255,6 +279,6 @@ class Scene(Section):
         return f"<frisure.Scene {self.file!r}: {self._core.hair_type}{told}>"
 
 
-def _restored(text: str, file: str, folder: str) -> Scene:
+def _restored(text: str, file: str, folder: str, edited: bool = False) -> Scene:
     """A scene that was pickled."""
-    return Scene.from_text(text, file=file, folder=folder)
+    return Scene._of(SceneText.parse(text, file, Path(folder), edited))

@@ -11,6 +11,13 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
+use super::limits::{self, Limits};
+use crate::errors::raise;
+use crate::{room, work};
+
+/// Rods that are made between two looks at signals: with a natural strain at a hundred knots this takes 20 ms.
+const BLOCK: usize = 8192;
+
 /// Properties of rods: each has one row for all rods, or one for each. SI units.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -99,7 +106,7 @@ struct Profiles<'a>(ArrayView3<'a, f64>);
 pub(crate) struct WrongRod {
     /// The argument with its index, such as `length[3]`.
     argument: String,
-    problem: InvalidQuantity,
+    problem: String,
 }
 
 /// The row of a rod in an array that has one for all rods, or one for each.
@@ -110,6 +117,12 @@ fn row(rod: usize, rows: usize) -> usize {
 impl Numbers<'_> {
     fn at(&self, rod: usize) -> f64 {
         self.1[row(rod, self.1.len())]
+    }
+
+    /// The number of a rod, if it is in its range.
+    fn within(&self, rod: usize, limits: &Limits) -> Result<f64, WrongRod> {
+        let index = row(rod, self.1.len());
+        limits.check(self.1[index]).map_err(|problem| told(self.0, index, problem))
     }
 
     /// The error about this argument of a rod.
@@ -124,6 +137,16 @@ impl Vectors<'_> {
         DVec3::new(vector[0], vector[1], vector[2])
     }
 
+    /// The vector of a rod, if its components are in their range.
+    fn within(&self, rod: usize, limits: &Limits) -> Result<DVec3, WrongRod> {
+        let vector = self.at(rod);
+        for component in vector.to_array() {
+            let index = row(rod, self.1.nrows());
+            limits.check(component).map_err(|problem| told(self.0, index, problem))?;
+        }
+        Ok(vector)
+    }
+
     fn wrong(&self, rod: usize) -> impl FnOnce(InvalidQuantity) -> WrongRod {
         wrong(self.0, row(rod, self.1.nrows()))
     }
@@ -134,12 +157,12 @@ impl Profiles<'_> {
         let index = row(rod, self.0.len_of(Axis(0)));
         let knots = self.0.index_axis(Axis(0), index);
         let strain = |knot: usize| DVec3::from_array([0, 1, 2].map(|k| knots[[knot, k]]));
-        if knots.nrows() == 1 && strain(0).is_finite() {
-            return Ok(NaturalStrain::Uniform(strain(0)));
+        for component in knots {
+            let checked = limits::STRAIN.check(*component);
+            checked.map_err(|problem| told("natural_strain", index, problem))?;
         }
-        if !(length.is_finite() && length > 0.0) {
-            // It has no knots; the rod's own check reports the length.
-            return Ok(NaturalStrain::STRAIGHT);
+        if knots.nrows() == 1 {
+            return Ok(NaturalStrain::Uniform(strain(0)));
         }
         let step = length / (knots.nrows().max(2) - 1) as f64;
         let knots = (0..knots.nrows()).map(|knot| (step * knot as f64, strain(knot))).collect();
@@ -149,8 +172,12 @@ impl Profiles<'_> {
 }
 
 fn wrong(argument: &str, index: usize) -> impl FnOnce(InvalidQuantity) -> WrongRod {
-    let argument = format!("{argument}[{index}]");
-    move |problem| WrongRod { argument, problem }
+    move |problem| told(argument, index, problem.to_string())
+}
+
+/// The error about an argument, with what is wrong in words.
+fn told(argument: &str, index: usize, problem: String) -> WrongRod {
+    WrongRod { argument: format!("{argument}[{index}]"), problem }
 }
 
 impl From<WrongRod> for Error {
@@ -163,51 +190,89 @@ impl From<WrongRod> for Error {
 impl FibreViews<'_> {
     /// The section and the material of a rod, and gravity along −z.
     pub(crate) fn at(&self, rod: usize) -> Result<(Section, Material, Load), WrongRod> {
-        let (diameter, axis_ratio) = (self.diameter.at(rod), self.axis_ratio.at(rod));
-        let section = Section::from_diameter(diameter, axis_ratio).map_err(|problem| {
-            // The section is checked as a whole; a diameter that is right is not the reason.
-            let one = Section::from_diameter(diameter, 1.0).is_ok();
-            if one {
-                self.axis_ratio.wrong(rod)(problem)
-            } else {
-                self.diameter.wrong(rod)(problem)
-            }
-        })?;
-        let (e, g, density) =
-            (self.youngs_modulus.at(rod), self.shear_modulus.at(rod), self.density.at(rod));
-        let material = Material::new(e, g, density).map_err(|problem| {
-            let argument = match problem.quantity {
-                "shear modulus" => &self.shear_modulus,
-                "density" => &self.density,
-                _ => &self.youngs_modulus,
-            };
-            argument.wrong(rod)(problem)
-        })?;
-        let gravity = self.gravity.at(rod);
-        if !(gravity >= 0.0 && gravity.is_finite()) {
-            let (quantity, unit, allowed) = ("gravity", "m/s²", "zero or more, and finite");
-            let problem = InvalidQuantity { quantity, value: gravity, unit, allowed };
-            return Err(self.gravity.wrong(rod)(problem));
-        }
+        let diameter = self.diameter.within(rod, &limits::DIAMETER)?;
+        let axis_ratio = self.axis_ratio.within(rod, &limits::AXIS_RATIO)?;
+        let section =
+            Section::from_diameter(diameter, axis_ratio).map_err(self.diameter.wrong(rod))?;
+        let e = self.youngs_modulus.within(rod, &limits::YOUNGS_MODULUS)?;
+        let g = self.shear_modulus.within(rod, &limits::SHEAR_MODULUS)?;
+        let density = self.density.within(rod, &limits::DENSITY)?;
+        let material = Material::new(e, g, density).map_err(self.youngs_modulus.wrong(rod))?;
+        let gravity = self.gravity.within(rod, &limits::GRAVITY)?;
         Ok((section, material, Load::down(gravity)))
     }
 }
 
 impl<'a> ClampViews<'a> {
-    /// The rods, as many as `count`.
+    /// Rods one block after the other, which `keep` takes, as many as `count`. Other threads of Python run meanwhile.
     ///
     /// # Errors
-    /// About the first rod that cannot be made.
-    pub(crate) fn rods(&self, fibres: &FibreViews<'a>, count: usize) -> Result<Vec<Rod>, WrongRod> {
-        let mut rods = Vec::with_capacity(count);
-        (0..count).into_par_iter().map(|rod| self.rod(fibres, rod)).collect_into_vec(&mut rods);
-        rods.into_iter().collect()
+    /// About the first rod that cannot be made, and what a signal such as Ctrl-C raises.
+    fn each_block(
+        &self,
+        py: Python<'_>,
+        fibres: &FibreViews<'a>,
+        count: usize,
+        mut keep: impl FnMut(Vec<Rod>),
+    ) -> PyResult<()> {
+        work::begin(py)?;
+        for first in (0..count).step_by(BLOCK) {
+            py.check_signals()?;
+            let block = first..count.min(first + BLOCK);
+            let made: Vec<Result<Rod, WrongRod>> = py.detach(|| {
+                let mut made = Vec::with_capacity(block.len());
+                block.into_par_iter().map(|rod| self.rod(fibres, rod)).collect_into_vec(&mut made);
+                made
+            });
+            // Of several errors that of the first rod is raised, whichever was met first.
+            let rods = made.into_iter().collect::<Result<Vec<Rod>, WrongRod>>();
+            keep(rods.map_err(|e| raise(py, &e.into()))?);
+        }
+        Ok(())
+    }
+
+    /// The rods, as many as `count`, which need `each` bytes each with all that is computed of them.
+    ///
+    /// # Errors
+    /// As [`Self::check`], and if they have no room in memory.
+    pub(crate) fn rods(
+        &self,
+        py: Python<'_>,
+        fibres: &FibreViews<'a>,
+        count: usize,
+        each: usize,
+    ) -> PyResult<Vec<Rod>> {
+        let each = each + size_of::<Rod>() + self.knots_size();
+        let list = room::check("rods", count, each as f64).and_then(|()| room::list("rods", count));
+        let mut rods = list.map_err(|e| raise(py, &e))?;
+        self.each_block(py, fibres, count, |block| rods.extend(block))?;
+        Ok(rods)
+    }
+
+    /// Checks so many rods.
+    ///
+    /// # Errors
+    /// About the first rod that cannot be made, and what a signal such as Ctrl-C raises.
+    pub(crate) fn check(
+        &self,
+        py: Python<'_>,
+        fibres: &FibreViews<'a>,
+        count: usize,
+    ) -> PyResult<()> {
+        self.each_block(py, fibres, count, drop)
+    }
+
+    /// Memory of the knots of a rod (bytes).
+    fn knots_size(&self) -> usize {
+        let knots = self.natural_strain.as_ref().map_or(1, |profiles| profiles.0.len_of(Axis(1)));
+        if knots > 1 { knots * size_of::<(f64, DVec3)>() } else { 0 }
     }
 
     fn rod(&self, fibres: &FibreViews<'a>, rod: usize) -> Result<Rod, WrongRod> {
         let (section, material, load) = fibres.at(rod)?;
         let (tangent, d1) = (self.tangent.at(rod), self.d1.at(rod));
-        let root = Root::from_tangent(self.root.at(rod), tangent, d1).map_err(|problem| {
+        let position = self.root.within(rod, &limits::ROOT)?;
+        let root = Root::from_tangent(position, tangent, d1).map_err(|problem| {
             let argument = match problem.quantity {
                 "coordinate of the root" => &self.root,
                 "part of d1 at right angles to the tangent" => &self.d1,
@@ -215,7 +280,7 @@ impl<'a> ClampViews<'a> {
             };
             argument.wrong(rod)(problem)
         })?;
-        let length = self.length.at(rod);
+        let length = self.length.within(rod, &limits::LENGTH)?;
         let natural = self.natural(rod, length)?;
         let torsion = TorsionConstant::SaintVenant;
         let spec = RodSpec { length, section, material, torsion, natural, root, load };
@@ -238,10 +303,19 @@ impl<'a> ClampViews<'a> {
         if radius == f64::INFINITY && pitch.is_finite() {
             return Ok(NaturalStrain::STRAIGHT);
         }
-        NaturalStrain::helix(radius, pitch).map_err(|problem| {
+        let natural = NaturalStrain::helix(radius, pitch).map_err(|problem| {
             let argument =
                 if problem.quantity == "curl pitch" { &self.curl_pitch } else { &self.curl_radius };
             argument.wrong(rod)(problem)
-        })
+        })?;
+        if let NaturalStrain::Uniform(strain) = &natural {
+            let most = strain.abs().max_element();
+            let index = row(rod, self.curl_radius.1.len());
+            limits::STRAIN.check(most).map_err(|problem| {
+                let problem = format!("with the pitch of {pitch:?} m, {problem}");
+                told("curl_radius", index, problem)
+            })?;
+        }
+        Ok(natural)
     }
 }

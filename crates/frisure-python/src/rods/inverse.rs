@@ -12,8 +12,12 @@ use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::fibres::{FibreViews, Fibres, WrongRod};
+use super::limits::{LENGTH, POINT};
 use crate::errors::raise;
-use crate::work;
+use crate::{room, work};
+
+/// Lines that are read between two looks at signals.
+const BLOCK: usize = 256;
 
 /// A line, and the fibre that hangs in its shape.
 struct Given {
@@ -42,6 +46,16 @@ impl Given {
         let natural = NaturalStrain::STRAIGHT;
         let fibre = RodSpec { length: 1.0, section, material, torsion, natural, root, load };
         Ok(Self { line, fibre })
+    }
+
+    /// What is wrong with the line, in words.
+    fn fault(&self) -> Option<String> {
+        let coordinates = self.line.iter().flat_map(DVec3::to_array);
+        let wrong = coordinates.into_iter().find_map(|x| POINT.check(x).err());
+        wrong.or_else(|| {
+            let length = self.line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            LENGTH.check(length).err()
+        })
     }
 
     fn solve(&self, options: &Options) -> Result<Found, InvalidQuantity> {
@@ -73,9 +87,11 @@ fn solve_all(given: &[Given], accuracy: f64, progress: &dyn Progress) -> Result<
     let found: Vec<Result<Found, Error>> = (given.par_iter().enumerate())
         .map(|(i, given)| {
             stage.check()?;
+            let wrong = |e: String| Error::invalid(format!("`points[{i}]` is wrong: {e}"), "");
+            given.fault().map_or(Ok(()), |fault| Err(wrong(fault)))?;
             let found = given.solve(&options);
             stage.advance();
-            found.map_err(|e| Error::invalid(format!("`points[{i}]` is wrong: {e}"), ""))
+            found.map_err(|e| wrong(e.to_string()))
         })
         .collect();
     // Of several errors the first is raised, whichever was met first.
@@ -108,9 +124,16 @@ pub(crate) fn inverse_rods<'py>(
     let views = fibres.views();
     let point = |i, k| DVec3::from_array([0, 1, 2].map(|c| points[[i, k, c]]));
     let line = |i| (0..nodes).map(|k| point(i, k)).collect();
-    let given: Result<Vec<Given>, WrongRod> =
-        (0..count).map(|i| Given::new(line(i), &views, i)).collect();
-    let given = given.map_err(|e| raise(py, &e.into()))?;
+    // The line twice, as points and as a strain, which the solver has at twice as many elements.
+    let each = size_of::<Given>() + size_of::<Found>() + 6 * size_of::<DVec3>() * nodes;
+    let list = room::check("lines", count, each as f64).and_then(|()| room::list("lines", count));
+    let mut given: Vec<Given> = list.map_err(|e| raise(py, &e))?;
+    for i in 0..count {
+        if i % BLOCK == 0 {
+            py.check_signals()?;
+        }
+        given.push(Given::new(line(i), &views, i).map_err(|e| raise(py, &e.into()))?);
+    }
     let found = work::run(py, progress, move |p| solve_all(&given, accuracy, p))?;
     let numbers = |of: fn(&Found) -> f64| PyArray1::from_iter(py, found.iter().map(of));
     let vectors = |of: fn(&Found) -> &[DVec3], rows: usize| {

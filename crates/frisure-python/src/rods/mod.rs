@@ -3,8 +3,10 @@
 mod fibres;
 mod gradient;
 mod inverse;
+mod limits;
+mod motion;
 mod settle;
 
 pub(crate) use gradient::RodsAtRest;
 pub(crate) use inverse::inverse_rods;
-pub(crate) use settle::settle_rods;
+pub(crate) use settle::{check_rods, settle_rods};

@@ -1,7 +1,7 @@
 //! The equilibria of many rods, by the solver in SIMD lanes.
 
 use frisure::progress::{Cancelled, Progress, StageCounter};
-use frisure::rod::batch::{Batch, BatchSolution, Precision};
+use frisure::rod::batch::{Batch, BatchSolution, Precision, RodSolution};
 use frisure::rod::{Rod, Stability};
 use frisure_engine::Error;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
@@ -11,7 +11,6 @@ use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
 use super::fibres::{Clamped, Fibres};
 use super::gradient::RodsAtRest;
-use crate::errors::raise;
 use crate::work;
 
 /// Elements of the rods that one thread solves at a time: a cancellation waits for them. 512 rods of 15 elements, as in
@@ -84,6 +83,15 @@ impl Options {
             Ok::<(), Cancelled>(())
         })?;
         Ok(rest)
+    }
+
+    /// Memory of what is computed of a rod (bytes).
+    fn size(&self) -> usize {
+        let nodes = size_of::<[f64; 3]>() * (self.elements + 1);
+        // Energy, gradient and error; iterations, and whether it is stable.
+        let numbers = 3 * size_of::<f64>() + size_of::<u32>() + size_of::<bool>();
+        let kept = size_of::<RodSolution>() + size_of::<[f64; 3]>() * self.elements;
+        numbers + if self.points { nodes } else { 0 } + if self.derivatives { kept } else { 0 }
     }
 
     /// Rods that one thread solves at a time.
@@ -182,6 +190,18 @@ type Arrays<'py> = (
     Option<Bound<'py, RodsAtRest>>,
 );
 
+/// Checks what `count` rods are made of, without solving them.
+#[pyfunction]
+#[pyo3(signature = (count, fibres, clamped))]
+pub(crate) fn check_rods<'py>(
+    py: Python<'py>,
+    count: usize,
+    fibres: Fibres<'py>,
+    clamped: Clamped<'py>,
+) -> PyResult<()> {
+    clamped.views().check(py, &fibres.views(), count)
+}
+
 /// The equilibria of `count` rods.
 #[pyfunction]
 #[pyo3(signature = (count, fibres, clamped, options, progress))]
@@ -193,9 +213,7 @@ pub(crate) fn settle_rods<'py>(
     options: Options,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Arrays<'py>> {
-    let (fibres, clamped) = (fibres.views(), clamped.views());
-    let rods = py.detach(|| clamped.rods(&fibres, count));
-    let rods = rods.map_err(|e| raise(py, &e.into()))?;
+    let rods = clamped.views().rods(py, &fibres.views(), count, options.size())?;
     let shape = [count, options.elements + 1, 3];
     let (points, error) = (options.points, options.error);
     let (elements, chunk) = (options.elements, options.chunk());
