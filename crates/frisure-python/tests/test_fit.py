@@ -96,23 +96,34 @@ def test_wrong_arguments_are_named_with_the_index() -> None:
         (r"strands\[0\]` is wrong: a line has 4 points", good[:, :4], {}),
         ("strands is no array of real numbers", "hair", {}),
         ("strands is no array of real numbers", good + 0j, {}),
-        (r"arc_length\[0\] has the shape \(40,\)", good, {"arc_length": ARC[:40]}),
-        (r"strands\[0\]` is wrong: the arc length of point 1", good, {"arc_length": -ARC}),
+        (r"arc_length has the shape \(40,\); line 0 has 41 points", good, {"arc_length": ARC[:40]}),
+        (r"arc_length\[1\] is -0.003; it must be finite", good, {"arc_length": -ARC}),
+        (r"arc_length\[1\]\[3\] is nan", good, {"arc_length": [ARC, np.where(np.arange(41) == 3, np.nan, ARC)]}),
+        (r"strands\[0\]` is wrong: a line has 0 points", np.zeros((2, 0, 3)), {}),
+        (r"strands is no array of real numbers", np.zeros((1, 41, 3), dtype=bool), {}),
         (r"noise is -1", good, {"noise": -1}),
         (r"gravity has the shape \(2,\)", good, {"gravity": (0, 1)}),
         (r"gravity\[0, 2\] is inf", good, {"gravity": (0, 0, np.inf)}),
         (r"fibre has the shape \(3,\)", good, {"fibre": [1, 2, 3]}),
         (r"fibre has the type float64", good, {"fibre": [0.5, 1]}),
-        (r"state", good, {"state": -1}),
+        (r"gravity\[1\] is \[0.0, 0.0, -1e\+300\]", good, {"gravity": [[0, 0, -9.81], [0, 0, -1e300]]}),
+        (r"state\[0\] is -1; it must be between 0 and 99", good, {"state": -1}),
+        (r"state\[1\] is 2, and no line of its fibre is in state 1", good, {"state": [0, 2], "fibre": [4, 4]}),
+        (r"state\[1\] is 1, and no line of its fibre is in state 0", good, {"state": [0, 1]}),
+        (r"length\[1\] is 0.05; it must be at least the last arc_length of the fibre, 0.12", good, {"length": [0.2, 0.05]}),
+        (r"known is \[1\]; it must be a dict", good, {"known": [1]}),
+        (r"knots is -1", good, {"knots": -1}),
+        (r"knots is 2.7; it must be a whole number", good, {"knots": 2.7}),
+        (r"noise is True", good, {"noise": True}),
         (r"length\[1\] is nan", good, {"length": [0.2, np.nan]}),
         (r"it can have stiffness_over_weight", good, {"known": {"density": 1}}),
         (r"known\[0\]` is wrong: axis ratio is 0.5", good, {"known": {"axis_ratio": 0.5}}),
         (r"known\['axis_ratio'\] has a deviation", good, {"known": {"axis_ratio": (1.5, 0.1)}}),
-        (r"number of knots is 17", good, {"knots": 17}),
+        (r"knots is 17; it must be between 1 and 16", good, {"knots": 17}),
     ]
     for message, strands, arguments in cases:
         with pytest.raises(frisure.ArgumentError, match=message):
-            frisure.fit(strands, **arguments)
+            frisure.fit(strands, **({"arc_length": ARC} | arguments if "length" in arguments else arguments))
 
 
 def test_an_exception_of_progress_ends_the_fit() -> None:

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from frisure._frisure import fit_fibres
+from frisure._check import real, whole
+from frisure._frisure import check_room, fit_fibres
 from frisure.errors import ArgumentError
 from frisure.strands import Strands
 
@@ -21,54 +22,72 @@ Progress = Callable[[str, float], object]
 KNOWN = ("stiffness_over_weight", "torsion_ratio", "curvature", "torsion", "axis_ratio")
 """What can be known of a fibre before it is measured."""
 
+MOST_KNOTS = 16
+"""Most knots of a natural strain, as `frisure_fit` has it."""
+
+MOST_STATES = 100
+"""Most states of wetness."""
+
+FARTHEST = 5000.0
+"""Longest arc length (m), as `frisure_fit` has it."""
+
+STRONGEST = 1e5
+"""Largest component of gravity (m/s²): a centrifuge."""
+
+POINT = 400.0
+"""Memory of a point with what is found of it (bytes): three coordinates in NumPy, twice in the library, and a list of three floats."""
+
 GRAVITY = 9.81
 """Acceleration of gravity (m/s²) that stiffness over weight refers to."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fits:
-    """What was found of F fibres. Each number has its standard deviation in the array of the same name with `_sd`: from the Fisher
-    information of the points and what was known before."""
+    """What was found of F fibres, in S states of wetness. Each number has its standard deviation in the array of the same name with
+    `_sd`: from the Fisher information of the points and what was known before.
+
+    - `curl_radius`, `curl_pitch` (F,), m: of the natural helix, without weight; a negative pitch is left-handed.
+    - `curvature`, `torsion` (F,), rad/m: natural curvature, the mean if it varies, and natural torsion.
+    - `stiffness_over_weight` (F, S): EI/(ρSg) (m³) with the smaller bending stiffness and g = 9.81 m/s²; NaN for a state that a fibre
+      was not seen in.
+    - `torsion_ratio` (F,): GJ/EI.
+    - `length` (F, S), m.
+    - `profile` (F, K, 2, 2), rad/m: natural curvature and torsion at K knots with their deviations; the last axis is value, deviation.
+      None with one knot.
+    - `covariance` (F, 4, 4): of curvature, torsion (rad/m), ln stiffness_over_weight and ln torsion_ratio in the first state.
+    - `noise` (F,), m: standard deviation of a coordinate, given, or what the fit leaves over.
+    - `reduced_square` (F,): mean square of the distance of the points from the fibre over that of the noise, about 1.
+    - `fitted` (F,) bool: whether the fit converged and the points deviate no more than the noise does; where not, the other numbers say
+      nothing.
+    - `iterations` (F,) int64: how often the rods were solved.
+    - `statements`: what the lines of each fibre do not tell, in sentences; empty lists where all was told.
+    - `lines`: where the points of each pose are on the fitted fibre (m), (P, 3) for each.
+
+    Two results are equal if they are the same object: compare their arrays.
+    """
 
     curl_radius: Float64
     curl_radius_sd: Float64
-    """Radius (m) of the natural helix, without weight, (F,)."""
     curl_pitch: Float64
     curl_pitch_sd: Float64
-    """Pitch (m) of the natural helix; negative: left-handed, (F,)."""
     curvature: Float64
     curvature_sd: Float64
-    """Natural curvature (rad/m), the mean if it varies, (F,)."""
     torsion: Float64
     torsion_sd: Float64
-    """Natural torsion (rad/m), (F,)."""
     stiffness_over_weight: Float64
     stiffness_over_weight_sd: Float64
-    """EI/(ρSg) (m³) with the smaller bending stiffness and g = 9.81 m/s², (F, S) for S states of wetness; NaN for a state that a fibre
-    was not seen in."""
     torsion_ratio: Float64
     torsion_ratio_sd: Float64
-    """GJ/EI, (F,)."""
     length: Float64
     length_sd: Float64
-    """Length (m), (F, S)."""
     profile: Float64 | None
-    """Natural curvature and torsion (rad/m) at K knots with their deviations, (F, K, 2, 2): the last axis is value, deviation. None with
-    one knot."""
     covariance: Float64
-    """Of curvature, torsion (rad/m), ln stiffness_over_weight and ln torsion_ratio in the first state, (F, 4, 4)."""
     noise: Float64
-    """Standard deviation of a coordinate (m): given, or what the fit leaves over, (F,)."""
     reduced_square: Float64
-    """Mean square of the distance of the points from the fibre over that of the noise: about 1, (F,)."""
     fitted: NDArray[np.bool_]
-    """Whether the fit converged and the points deviate no more than the noise does; where not, the other numbers say nothing, (F,)."""
     iterations: NDArray[np.int64]
-    """How often the rods were solved, (F,)."""
     statements: list[list[str]]
-    """What the lines of each fibre do not tell, in sentences; empty where all was told."""
     lines: list[list[Float64]]
-    """Where the points of each pose are on the fitted fibre (m), (P, 3) for each."""
 
     def __len__(self) -> int:
         return len(self.curl_radius)
@@ -133,6 +152,11 @@ def fit(
     >>> bool(abs(found.curl_radius[0] / 6e-3 - 1) < 0.01)
     True
     """
+    knots = whole("knots", knots, 1, MOST_KNOTS)
+    if noise is not None:
+        noise = real("noise", noise, "a number greater than 0 (m), or None", np.nextafter(0, 1))
+    if known is not None and not isinstance(known, Mapping):
+        raise ArgumentError(f"known is {known!r}; it must be a dict of numbers, or pairs of value and deviation, by name")
     points, offsets = _lines("strands", strands, 3)
     count = len(offsets) - 1
     arcs = None
@@ -148,26 +172,25 @@ def fit(
         given[name] = _known(f"known[{name!r}]", value, len(names))
     if given["axis_ratio"] is not None and given["axis_ratio"][:, 1].any():
         raise ArgumentError("known['axis_ratio'] has a deviation; it is not fitted, so give the number alone")
-    if noise is not None and not (isinstance(noise, (int, float, np.floating)) and noise > 0):
-        raise ArgumentError(f"noise is {noise!r}; it must be a number greater than 0 (m), or None")
+    numbers = np.ascontiguousarray(order.reshape(-1), dtype=np.int64)
+    states = _states(state, numbers, len(names))
+    if arcs is not None:
+        _long_enough(lengths, arcs, offsets, numbers)
     lines: dict[str, Any] = {
         "points": points,
         "offsets": offsets,
         "arc_length": arcs,
         "gravity": _vectors("gravity", gravity, count),
-        "state": _integers("state", state, count),
-        "fibre": np.ascontiguousarray(order.reshape(-1), dtype=np.int64),
+        "state": states,
+        "fibre": numbers,
         "length": lengths,
     }
-    if lines["state"].size and not (0 <= lines["state"].min() and lines["state"].max() < 100):
-        raise ArgumentError("state has a number below 0 or above 99; states are counted from 0")
     rows = {len(array) for array in given.values() if array is not None}
     broadcast = max(rows, default=1)
     for name, array in given.items():
         if array is not None and len(array) not in (1, broadcast):
             raise ArgumentError(f"known[{name!r}] has {len(array)} rows, others {broadcast}")
-    found = fit_fibres(lines, given, None if noise is None else float(noise), int(knots), progress)
-    return _fits(found, len(names), int(knots))
+    return _fits(fit_fibres(lines, given, noise, knots, progress), len(names), knots)
 
 
 def _fits(found: dict[str, Any], count: int, knots: int) -> Fits:
@@ -206,9 +229,10 @@ def _array(name: str, value: Any) -> Float64:
     """A float64 array of real numbers, as it is if it is one."""
     try:
         array = np.asarray(value)
-        if array.dtype.kind not in "fiub":
+        if array.dtype.kind not in "fiu":
             raise TypeError(f"its type is {array.dtype}")
-        return array.astype(np.float64, copy=False)
+        # A field of a packed record is not aligned.
+        return np.require(array, np.float64, ["ALIGNED"])
     except (TypeError, ValueError) as error:
         raise ArgumentError(f"{name} is no array of real numbers: {error}") from None
 
@@ -225,13 +249,14 @@ def _lines(name: str, value: Any, columns: int) -> tuple[Float64, NDArray[np.int
         offsets = np.cumsum([0, *(len(row) for row in rows)], dtype=np.int64)
         return np.concatenate(rows), offsets
     array = _array(name, value)
-    if array.size == 0 and array.ndim in (1, 3):
+    if array.shape == (0,):
         return np.zeros((0, columns)), np.zeros(1, dtype=np.int64)
     if array.ndim == 2:
         array = array[np.newaxis]
     if array.ndim != 3 or array.shape[2] != columns:
         raise ArgumentError(f"{name} has the shape {array.shape}; it must be (H, P, {columns}) or (P, {columns}), or a list of those")
     count, points = array.shape[:2]
+    check_room("points", count * points, POINT)
     return array.reshape(-1, columns), np.arange(count + 1, dtype=np.int64) * points
 
 
@@ -240,16 +265,23 @@ def _arcs(value: Any, offsets: NDArray[np.int64]) -> Float64:
     counts = np.diff(offsets)
     if isinstance(value, (list, tuple)) and value and np.ndim(value[0]) == 1:
         rows = [_array(f"arc_length[{i}]", row) for i, row in enumerate(value)]
+        called = [f"arc_length[{i}]" for i in range(len(rows))]
     else:
         array = _array("arc_length", value)
         if array.ndim not in (1, 2):
             raise ArgumentError(f"arc_length has the shape {array.shape}; it must be (P,) or (H, P), or a list of (P,)")
         rows = list(array) if array.ndim == 2 else [array] * len(counts)
+        called = [f"arc_length[{i}]" if array.ndim == 2 else "arc_length" for i in range(len(rows))]
     if len(rows) != len(counts):
         raise ArgumentError(f"arc_length has {len(rows)} rows for {len(counts)} lines; it must have as many")
     for i, (row, points) in enumerate(zip(rows, counts)):
         if row.shape != (points,):
-            raise ArgumentError(f"arc_length[{i}] has the shape {row.shape}; the line has {points} points")
+            raise ArgumentError(f"{called[i]} has the shape {row.shape}; line {i} has {points} points")
+        wrong = ~((row >= 0) & (row <= FARTHEST))
+        wrong[1:] |= ~(row[1:] > row[:-1])
+        for j in np.flatnonzero(wrong)[:1]:
+            allowed = f"finite, between 0 and {FARTHEST:g} m, and greater than the one before"
+            raise ArgumentError(f"{called[i]}[{j}] is {row[j]}; it must be {allowed}")
     return np.concatenate(rows) if rows else np.zeros(0)
 
 
@@ -259,9 +291,36 @@ def _numbers(name: str, value: Any, count: int) -> Float64:
         array = np.full(count, float(array))
     if array.shape != (count,):
         raise ArgumentError(f"{name} has the shape {array.shape}; it must be () or ({count},)")
-    for i in np.flatnonzero(~(np.isfinite(array) & (array > 0)))[:1]:
-        raise ArgumentError(f"{name}[{i}] is {array[i]}; it must be finite and greater than 0 (m)")
+    for i in np.flatnonzero(~((array > 0) & (array <= FARTHEST)))[:1]:
+        raise ArgumentError(f"{name}[{i}] is {array[i]}; it must be greater than 0 and at most {FARTHEST:g} m")
     return np.ascontiguousarray(array)
+
+
+def _states(value: Any, fibres: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """The state of each line; each fibre has a line in every state up to its last."""
+    states = _integers("state", value, len(fibres))
+    for i in np.flatnonzero(~((states >= 0) & (states < MOST_STATES)))[:1]:
+        raise ArgumentError(f"state[{i}] is {states[i]}; it must be between 0 and {MOST_STATES - 1}: states are counted from 0")
+    seen = np.zeros((count, int(states.max(initial=0)) + 1), dtype=bool)
+    seen[fibres, states] = True
+    gaps = ~np.logical_and.accumulate(seen, axis=1)
+    for i in np.flatnonzero(gaps[fibres, states])[:1]:
+        missing = int(np.argmin(seen[fibres[i]]))
+        raise ArgumentError(
+            f"state[{i}] is {states[i]}, and no line of its fibre is in state {missing}; states are counted from 0, and each has a line"
+        )
+    return states
+
+
+def _long_enough(
+    lengths: Float64, arcs: Float64, offsets: NDArray[np.int64], fibres: NDArray[np.int64]
+) -> None:
+    """Refuses a length that ends before a point of the fibre."""
+    last = np.zeros(len(lengths))
+    filled = np.flatnonzero(np.diff(offsets) > 0)
+    np.maximum.at(last, fibres[filled], arcs[offsets[1:][filled] - 1])
+    for i in np.flatnonzero(lengths < last)[:1]:
+        raise ArgumentError(f"length[{i}] is {lengths[i]}; it must be at least the last arc_length of the fibre, {last[i]} m")
 
 
 def _integers(name: str, value: Any, count: int) -> NDArray[np.int64]:
@@ -283,6 +342,9 @@ def _vectors(name: str, value: Any, count: int) -> Float64:
         raise ArgumentError(f"{name} has the shape {array.shape}; it must be (3,) or ({count}, 3): one for each line")
     for row, column in np.argwhere(~np.isfinite(array))[:1]:
         raise ArgumentError(f"{name}[{row}, {column}] is {array[row, column]}; it must be finite (m/s²)")
+    size = np.abs(array).max(axis=1, initial=0.0)
+    for row in np.flatnonzero(size > STRONGEST)[:1]:
+        raise ArgumentError(f"{name}[{row}] is {array[row].tolist()}; its components must be within {STRONGEST:g} m/s²")
     return array
 
 

@@ -25,35 +25,36 @@ RANGES = {
 """What can be given of the fibres, as `frisure_engine::photo` has it."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Measured:
     """What the photo of a lock tells. Where it does not tell, `reason` says why and the numbers are None. Lengths in metres; each number has
-    its standard deviation under its name with `_sd`, and lies within 1.96 of it with a probability of 95 %."""
+    its standard deviation under its name with `_sd`, and lies within 1.96 of it with a probability of 95 %.
+
+    - `reason`: why the lock was not measured, None where it was; `hint`: what to do about that.
+    - `apparent_radius`, `apparent_pitch` (m): of the curl as it hangs.
+    - `curl_radius`, `curl_pitch` (m): without weight; None where no fibre of the type hangs so.
+    - `turns`: turns seen.
+    - `tilt` (rad): angle of the lock's axis to the vertical, positive where its lower end is to the right.
+    - `length` (m): of the hairs, given, or that of the line that is seen.
+    - `overlay` (height, width, 3), uint8: the photo with what was found; ridge lines blue, the fitted wave magenta, its axis yellow.
+
+    It is true where the lock was measured. Two results are equal if they are the same object.
+    """
 
     reason: str | None
-    """Why the lock was not measured; None where it was."""
     hint: str | None
-    """What to do about that."""
     apparent_radius: float | None
     apparent_radius_sd: float | None
-    """Radius of the curl as it hangs (m)."""
     apparent_pitch: float | None
     apparent_pitch_sd: float | None
-    """Pitch of the curl as it hangs (m)."""
     curl_radius: float | None
     curl_radius_sd: float | None
-    """Radius without weight (m); None where no fibre of the type hangs so."""
     curl_pitch: float | None
     curl_pitch_sd: float | None
-    """Pitch without weight (m)."""
     turns: float | None
-    """Turns seen."""
     tilt: float | None
-    """Angle of the lock's axis to the vertical (rad), positive where its lower end is to the right."""
     length: float | None
-    """Length of the hairs (m): given, or that of the line that is seen."""
     overlay: NDArray[np.uint8]
-    """The photo with what was found, (height, width, 3): ridge lines blue, the fitted wave magenta, its axis yellow."""
 
     def __bool__(self) -> bool:
         """Whether the lock was measured."""
