@@ -113,6 +113,57 @@ def test_wrong_arguments_are_told() -> None:
     assert points.dtype == torch.float64 and float(points[0, -1, 0]) > 0.0
 
 
+def test_what_would_lose_a_part_is_refused() -> None:
+    torch, jax = framework("torch"), framework("jax")
+    import frisure.jax
+    import frisure.torch
+
+    for wrong in (torch.tensor(0.1 + 1j), torch.tensor(True), 0.1 + 1j, np.array(0.1 + 0j), True, "abc"):
+        with pytest.raises(TypeError, match="length has the dtype"):
+            frisure.torch.settle(wrong)
+    with pytest.raises(TypeError, match="diameter has the dtype torch.complex"):
+        frisure.torch.settle(0.1, diameter=torch.tensor(7e-5 + 0j))
+    for wrong in (jax.numpy.asarray(0.1 + 1j), jax.numpy.asarray(True), 0.1 + 1j, True, "abc", None):
+        with pytest.raises((TypeError, frisure.ArgumentError), match="length"):
+            frisure.jax.settle(wrong)
+    half = torch.tensor(0.125, dtype=torch.bfloat16, requires_grad=True)
+    frisure.torch.settle(half)[0, -1, 2].backward()
+    assert half.grad is not None and half.grad.dtype == torch.bfloat16
+
+
+@pytest.mark.parametrize("name", ["torch", "jax"])
+def test_wrong_options_and_shapes_are_told_before_the_computation(name: str) -> None:
+    framework(name)
+    settle = importlib.import_module(f"frisure.{name}").settle
+    cases: dict[str, dict[str, Any]] = {
+        "elements is -5": {"elements": -5},
+        "elements is 15.5": {"elements": 15.5},
+        "elements is True": {"elements": True},
+        "precision is 'half'": {"precision": "half"},
+        "curl_radius and natural_strain are both given": {"curl_radius": 0.01, "natural_strain": [0.0, 0.0, 0.0]},
+        "curl_pitch is given without": {"curl_pitch": 0.01},
+        "root has the shape": {"root": [0.0, 0.0]},
+        "axis_ratio has 3 values": {"diameter": [7e-5, 8e-5], "axis_ratio": [1.0, 1.0, 1.0]},
+        r"diameter\[0\]": {"diameter": -1.0},
+    }
+    for message, arguments in cases.items():
+        arrays = {key: np.asarray(value) if isinstance(value, list) else value for key, value in arguments.items()}
+        with pytest.raises(frisure.ArgumentError, match=message):
+            settle(0.1, **arrays)
+
+
+def test_no_rods_have_no_points_and_no_gradient_in_both() -> None:
+    torch, jax = framework("torch"), framework("jax")
+    import frisure.jax
+    import frisure.torch
+
+    assert frisure.jax.settle(jax.numpy.zeros(0), elements=5).shape == (0, 6, 3)
+    assert jax.grad(lambda length: frisure.jax.settle(length).sum())(jax.numpy.zeros(0)).shape == (0,)
+    none = torch.zeros(0, dtype=torch.float64, requires_grad=True)
+    frisure.torch.settle(none).sum().backward()
+    assert none.grad is not None and none.grad.shape == (0,)
+
+
 def test_vmap_and_single_precision_in_jax() -> None:
     jax = framework("jax")
     import frisure.jax

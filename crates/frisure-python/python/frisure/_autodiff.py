@@ -29,6 +29,9 @@ DIFFERENTIABLE = (
 )
 """The arguments of `rods.settle` that have derivatives."""
 
+VECTORS = ("root", "tangent", "d1")
+"""Those that have three numbers for each rod."""
+
 OPTIONS = ("elements", "precision")
 """The others that change the points."""
 
@@ -40,13 +43,32 @@ def split(keywords: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
         known = ", ".join(DIFFERENTIABLE + OPTIONS)
         raise ArgumentError(f"{unknown[0]} is no argument of this function; it has {known}")
     options = {name: keywords[name] for name in OPTIONS if name in keywords}
-    return {name: value for name, value in keywords.items() if name not in OPTIONS}, options
+    if options:
+        elements, precision = rods._options(options.get("elements", 15), options.get("precision", "double"))
+        options = {"elements": elements, "precision": precision}
+    arguments = {name: value for name, value in keywords.items() if name not in OPTIONS and value is not None}
+    if "length" not in arguments:
+        raise ArgumentError("length is None; it must be a number or (H,)")
+    rods._natural(arguments)
+    return arguments, options
+
+
+def count(shapes: dict[str, tuple[int, ...]]) -> int:
+    """The number of rods H of arguments in these shapes."""
+    alike: dict[str, Any] = {}
+    for name, shape in shapes.items():
+        # Arrays without memory: only their shapes are looked at.
+        array = np.broadcast_to(np.float64(0), shape)
+        if name == "natural_strain":
+            alike[name] = rods._profiles(name, array)
+        else:
+            alike[name] = (rods._vectors if name in VECTORS else rods._numbers)(name, array)
+    return rods._count(alike)
 
 
 def settle(arguments: dict[str, Any], options: dict[str, Any], *, derivatives: bool) -> rods.Settled:
-    """The rods, with all arguments as float64."""
-    arrays: dict[str, Any] = {name: np.asarray(value, dtype=np.float64) for name, value in arguments.items()}
-    return rods.settle(**arrays, **options, derivatives=derivatives)
+    """The rods."""
+    return rods.settle(**arguments, **options, derivatives=derivatives)
 
 
 def points(settled: rods.Settled) -> Float64:

@@ -17,34 +17,40 @@ import jax  # type: ignore[import-not-found, unused-ignore]
 import jax.numpy as jnp  # type: ignore[import-not-found, unused-ignore]
 import numpy as np
 
-from frisure import _autodiff
+from frisure import _autodiff, rods
 
 __all__ = ["settle"]
 
 _Options = tuple[tuple[str, Any], ...]
 
 
-def _count(arguments: dict[str, jax.Array]) -> int:
-    """The number of rods H: the rows of arguments that have one for each."""
-    rows = [1]
-    for name, value in arguments.items():
-        single = 1 if name in ("root", "tangent", "d1", "natural_strain") else 0
-        if value.ndim > single:
-            rows.append(value.shape[0])
-    return max(rows)
-
-
 def _like(shape: tuple[int, ...], kind: Any) -> Any:
     return jax.ShapeDtypeStruct(shape, kind)  # type: ignore[no-untyped-call, unused-ignore]
+
+
+def _doubles(given: dict[str, Any]) -> dict[str, Any]:
+    """The arrays of a callback for NumPy, which has no half precision of eight exponents."""
+    return {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
+
+
+def _real(name: str, value: Any) -> jax.Array:
+    """A real number or array as JAX has them; a complex one would lose its imaginary part."""
+    kind = value.dtype if hasattr(value, "dtype") else np.asarray(value).dtype
+    if not (jnp.issubdtype(kind, jnp.floating) or jnp.issubdtype(kind, jnp.integer)):
+        raise TypeError(f"{name} has the dtype {kind}; it must be real numbers in SI units")
+    return jnp.asarray(value, dtype=float)
 
 
 @partial(jax.custom_vjp, nondiff_argnums=(0,))  # type: ignore[untyped-decorator, unused-ignore]
 def _points(options: _Options, arguments: dict[str, jax.Array]) -> jax.Array:
     kind = jnp.result_type(*arguments.values())
-    shape = (_count(arguments), dict(options).get("elements", 15) + 1, 3)
+    count = _autodiff.count({name: value.shape for name, value in arguments.items()})
+    shape = (count, dict(options).get("elements", 15) + 1, 3)
+    if count == 0:
+        return jnp.zeros(shape, kind)
 
     def host(given: dict[str, Any]) -> Any:
-        settled = _autodiff.settle(given, dict(options), derivatives=False)
+        settled = _autodiff.settle(_doubles(given), dict(options), derivatives=False)
         return _autodiff.points(settled).astype(kind)
 
     found: jax.Array = jax.pure_callback(host, _like(shape, kind), arguments, vmap_method="sequential")
@@ -60,9 +66,12 @@ def _backward(
 ) -> tuple[dict[str, jax.Array]]:
     shapes = {name: _like(value.shape, value.dtype) for name, value in arguments.items()}
 
+    if by_points.shape[0] == 0:
+        return ({name: jnp.zeros(shape.shape, shape.dtype) for name, shape in shapes.items()},)
+
     def host(given: dict[str, Any], loss: Any) -> Any:
         # The equilibria are computed again: JAX keeps arrays alone from one pass to the other.
-        settled = _autodiff.settle(given, dict(options), derivatives=True)
+        settled = _autodiff.settle(_doubles(given), dict(options), derivatives=True)
         gradient = settled.vjp(np.asarray(loss, dtype=np.float64))
         return {
             name: _autodiff.derivative(gradient, name, shape.shape).astype(shape.dtype)
@@ -83,7 +92,13 @@ def settle(length: Any, **keywords: Any) -> jax.Array:
 
     Gradients go to all of them, once (no second derivatives). The computation is on the processor, in float64; the points have the
     type of the arguments, float32 unless `jax_enable_x64` is set. Rods without derivatives (`rods.Gradient.exists`) get zeros.
+
+    Wrong shapes and options are an `ArgumentError`, and so are wrong numbers where JAX traces none of the arguments; of those that it
+    traces, such as the ones that are differentiated, only the computation sees the numbers, and JAX raises an error of its own.
     """
     arguments, options = _autodiff.split({"length": length, **keywords})
-    arrays = {name: jnp.asarray(value, dtype=float) for name, value in arguments.items()}
+    arrays = {name: _real(name, value) for name, value in arguments.items()}
+    _autodiff.count({name: value.shape for name, value in arrays.items()})
+    if not any(isinstance(value, jax.core.Tracer) for value in arrays.values()):
+        rods._check(_doubles(arrays))
     return _points(tuple(sorted(options.items())), arrays)

@@ -14,7 +14,6 @@ from __future__ import annotations
 from functools import reduce
 from typing import Any
 
-import numpy as np
 import torch  # type: ignore[import-not-found, unused-ignore]
 
 from frisure import _autodiff, rods
@@ -22,12 +21,21 @@ from frisure import _autodiff, rods
 __all__ = ["settle"]
 
 
+def _numpy(name: str, tensor: torch.Tensor) -> Any:
+    """A real tensor as an array; a complex one would lose its imaginary part."""
+    if tensor.is_complex() or tensor.dtype == torch.bool:
+        raise TypeError(f"{name} has the dtype {tensor.dtype}; it must be real numbers in SI units")
+    given = tensor.detach().cpu()
+    # NumPy has no bfloat16.
+    return (given.double() if given.is_floating_point() else given).numpy()
+
+
 class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
     @staticmethod
     def forward(
         ctx: Any, keywords: dict[str, Any], options: dict[str, Any], names: list[str], *tensors: torch.Tensor
     ) -> torch.Tensor:
-        arrays = {name: tensor.detach().cpu().numpy() for name, tensor in zip(names, tensors, strict=True)}
+        arrays = {name: _numpy(name, tensor) for name, tensor in zip(names, tensors, strict=True)}
         settled = _autodiff.settle(keywords | arrays, options, derivatives=any(ctx.needs_input_grad))
         ctx.settled, ctx.names = settled, names
         ctx.kinds = [(tensor.shape, tensor.dtype, tensor.device) for tensor in tensors]
@@ -40,7 +48,7 @@ class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
     @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator, unused-ignore]
     def backward(ctx: Any, by_points: torch.Tensor) -> tuple[Any, ...]:
         settled: rods.Settled = ctx.settled
-        gradient = settled.vjp(by_points.detach().cpu().numpy().astype(np.float64))
+        gradient = settled.vjp(_numpy("by_points", by_points))
         found: list[torch.Tensor | None] = []
         for index, (name, (shape, dtype, device)) in enumerate(zip(ctx.names, ctx.kinds, strict=True)):
             if ctx.needs_input_grad[3 + index]:
