@@ -150,7 +150,14 @@ def test_errors_name_folder_file_and_column(folder: Path, tmp_path: Path) -> Non
     with pytest.raises(frisure.ArgumentError, match="has no column `colour`; there are .*color"):
         data.heads(folder, ["colour"])
     with pytest.raises(frisure.ArgumentError, match="from 0 to n - 1"):
-        list(data.heads(folder, shard=(2, 2)))
+        data.heads(folder, shard=(2, 2))
+    with pytest.raises(frisure.ArgumentError, match=r"`shard` is 3; it must be \(i, n\)"):
+        data.views(folder, shard=3)  # type: ignore[arg-type]
+    for wrong in (-1, 1.5, True):
+        with pytest.raises(frisure.ArgumentError, match=f"shuffle is {wrong}"):
+            data.heads(folder, shuffle=wrong)  # type: ignore[arg-type]
+    with pytest.raises(frisure.ArgumentError, match="columns is 'guides'; it must be a list of names"):
+        data.heads(folder, "guides")
     broken = tmp_path / "part-000000000.parquet"
     broken.write_bytes((folder / broken.name).read_bytes()[:-100])
     with pytest.raises(frisure.ArgumentError, match="part-000000000.parquet` cannot be read"):

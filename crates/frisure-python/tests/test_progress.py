@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import _thread
+import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
 
 import frisure
+import numpy as np
 import pytest
 
 from conftest import SMALL
@@ -63,6 +67,9 @@ def test_ctrl_c_ends_the_work_soon() -> None:
     for work in (
         lambda: frisure.predict(LONG),
         lambda: frisure.rods.settle([0.15] * 400_000, curl_radius=5e-3, elements=240),
+        # The rods of this one take longer to make than the time until the key is pressed.
+        lambda: frisure.rods.settle(np.broadcast_to(0.15, (3_000_000,)), elements=2, points=False),
+        lambda: frisure.batch({"samples": 1000, "volume": False, "set": {"wisps.count": 30}}),
     ):
         sent.clear()
         thread = threading.Thread(target=press)
@@ -104,3 +111,29 @@ def test_hairstyles_can_be_made_in_several_threads() -> None:
     for thread in threads:
         thread.join()
     assert len(made) == 2
+
+
+FORK = """
+import os, sys, numpy as np, frisure
+from frisure import rods
+STARTED
+child = os.fork()
+if child == 0:
+    code = 3
+    try:
+        code = 0 if len(rods.settle(np.full(1000, 0.1))) == 1000 else 4
+    except frisure.FailedError as error:
+        print(error, flush=True)
+        code = 7
+    os._exit(code)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there are no forks")
+@pytest.mark.parametrize(("started", "code"), [("rods.settle(np.full(1000, 0.1))", 7), ("", 0)])
+def test_a_fork_without_threads_is_told_and_does_not_wait(started: str, code: int) -> None:
+    program = [sys.executable, "-c", FORK.replace("STARTED", started)]
+    ran = subprocess.run(program, capture_output=True, text=True, check=False, timeout=60)
+    assert ran.returncode == code, ran.stderr
+    assert ("start method \"spawn\"" in ran.stdout) == (code == 7), ran.stdout

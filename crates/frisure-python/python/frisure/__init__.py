@@ -12,14 +12,19 @@
 - A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, and one method for each step of styling.
 - `frisure.rods` solves many single fibres at once; `frisure.fit` finds the numbers of measured ones, with error bars;
   `frisure.measure` those of a lock in a photo.
+- `frisure.batch` computes many heads that vary, as a table of Arrow.
 - `frisure.presets` has a scene for each hair type.
 
 Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error is a `FrisureError`; those
 about what was asked for are `ValueError`s, too.
 """
 
+import os as _os
+
 from frisure import rods
+from frisure._batch import batch
 from frisure._frisure import __version__
+from frisure._frisure import after_fork as _after_fork
 from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
 from frisure.fits import Fits, fit
 from frisure.hairstyle import Hairstyle, predict
@@ -41,9 +46,14 @@ __all__ = [
     "Section",
     "Strands",
     "__version__",
+    "batch",
     "fit",
     "measure",
     "predict",
     "presets",
     "rods",
 ]
+
+# A fork has none of the threads that compute, and is told so where it asks for them, instead of waiting for ever.
+if hasattr(_os, "register_at_fork"):
+    _os.register_at_fork(after_in_child=_after_fork)

@@ -21,6 +21,7 @@ from typing import Any, Literal, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from frisure._check import whole
 from frisure._frisure import read_png
 from frisure.errors import ArgumentError
 
@@ -71,7 +72,7 @@ def heads(
     Errors: `ArgumentError` for a folder without heads, of two batches, or with broken files, and for unknown columns.
     """
     source = _Source.read(folder, columns)
-    return source.heads(shuffle, shard)
+    return source.heads(*_order(shuffle, shard))
 
 
 def views(
@@ -88,7 +89,7 @@ def views(
     source = _Source.read(folder, columns)
     if not source.has_views:
         raise ArgumentError(f"`{folder}` has no views: its batch has no table `[views]`")
-    return source.views(shuffle, shard)
+    return source.views(*_order(shuffle, shard))
 
 
 def torch_dataset(
@@ -120,7 +121,22 @@ def torch_dataset(
         raise ArgumentError(f"`per` is {per!r}; it must be 'head' or 'view'")
     if per == "view" and not source.has_views:
         raise ArgumentError(f"`{folder}` has no views: its batch has no table `[views]`")
+    if shuffle is not None or shard is not None:
+        _order(shuffle, shard or (0, 1))
     return TorchDataset(source.heads if per == "head" else source.views, shuffle, shard, transform)
+
+
+def _order(shuffle: Any, shard: Any) -> tuple[Optional[int], tuple[int, int]]:
+    """A seed and a shard, checked before the first head is asked for."""
+    if shuffle is not None:
+        shuffle = whole("shuffle", shuffle, 0)
+    try:
+        which, count = (whole("shard", number, 0) for number in shard)
+    except (TypeError, ValueError):
+        which, count = 0, 0
+    if not which < count:
+        raise ArgumentError(f"`shard` is {shard}; it must be (i, n) with i from 0 to n - 1")
+    return shuffle, (which, count)
 
 
 def _parquet() -> Any:
@@ -152,6 +168,8 @@ class _Source:
 
     @staticmethod
     def read(folder: Folder, columns: Optional[Sequence[str]]) -> _Source:
+        if isinstance(columns, str) or columns is not None and not all(isinstance(name, str) for name in columns):
+            raise ArgumentError(f"columns is {columns!r}; it must be a list of names, or None for all")
         parts, known, digest = [], set[str](), None
         for path in sorted(Path(folder).glob("part-*.parquet")):
             file = _open(path)
@@ -200,8 +218,6 @@ class _Source:
     ) -> Iterator[tuple[Row, list[Row]]]:
         """The heads of a shard with the rows of their views."""
         which, count = shard
-        if not 0 <= which < count:
-            raise ArgumentError(f"`shard` is {shard}; it must be (i, n) with i from 0 to n - 1")
         wanted = self.view_columns or ((*_NEEDED, "view") if views else ())
         random = np.random.default_rng(shuffle)
         parts = list(range(len(self.parts)))

@@ -17,6 +17,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Optional, Union
 
+from frisure._check import whole
 from frisure._frisure import compute_part, missing_parts
 from frisure.errors import ArgumentError
 
@@ -56,8 +57,7 @@ def batch(
         import ray.data  # type: ignore[import-not-found, unused-ignore]
     except ImportError as error:
         raise ImportError('`frisure.ray` needs Ray Data: pip install "ray[data]"') from error
-    if cpus_per_task < 1:
-        raise ArgumentError(f"`cpus_per_task` is {cpus_per_task}; it must be 1 or more")
+    cpus_per_task = whole("cpus_per_task", cpus_per_task, 1)
     spec, folder = Path(spec).absolute(), Path(folder).absolute()
     parts, missing = missing_parts(spec, folder)
     if not missing:

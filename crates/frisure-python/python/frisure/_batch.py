@@ -1,0 +1,96 @@
+"""Batches of heads in this process, as tables of Arrow."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Union
+
+from frisure import _frisure
+from frisure._check import whole
+from frisure.errors import ArgumentError, FailedError
+from frisure.hairstyle import Progress
+
+if TYPE_CHECKING:
+    import pyarrow  # type: ignore[import-not-found, import-untyped, unused-ignore]
+
+BatchSource = Union[Mapping[str, Any], "os.PathLike[str]", str]
+"""What a batch is made from: a dict, a path, or text in TOML (a str with a line break)."""
+
+
+def batch(
+    spec: BatchSource,
+    folder: str | os.PathLike[str] | None = None,
+    *,
+    columns: Sequence[str] | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> pyarrow.Table:
+    """Computes the heads of a batch, and returns a table with a row for each, the columns of the files of `frisure batch`.
+
+    - `spec`: the batch as `docs/batch.md` describes it: a path, a dict, or a text in TOML (with a line break). Paths in a dict or a text
+      are relative to the working directory.
+    - `folder`: where the files of the batch are kept, as by `frisure batch SPEC -o FOLDER`; heads that are there are not computed again.
+      Without it a temporary folder is used and removed. A batch with views needs one: `frisure.data` reads them from there.
+    - `columns`: the names of those that are read; by default all.
+    - `threads`: how many are used; by default one for each processor.
+    - `progress("heads", done)` is called with the fraction that is done. Ctrl-C ends the work; files that are complete stay in the folder.
+
+    A head that failed is a row whose `status` is not `"ok"`, with the message in `error`. Needs `pyarrow`.
+
+    >>> table = batch({"samples": 2, "volume": False, "set": {"wisps.count": 3},
+    ...                "vary": {"hair.length": {"from": "3 cm", "to": "6 cm"}}})           # doctest: +SKIP
+    >>> table.num_rows, table["hair.length"].to_pylist()                                # doctest: +SKIP
+    (2, [0.0387, 0.0514])
+    """
+    try:
+        import pyarrow  # noqa: F401
+        import pyarrow.parquet  # type: ignore[import-not-found, import-untyped, unused-ignore]  # noqa: F401
+    except ImportError as error:
+        raise ImportError('`frisure.batch` needs pyarrow: pip install "frisure[data]"') from error
+    if not hasattr(_frisure, "run_batch"):
+        raise FailedError("this build of frisure has no batches: it was made without the feature `batch`")
+    if threads is not None:
+        threads = whole("threads", threads, 1, 4096)
+    if isinstance(columns, str) or columns is not None and not all(isinstance(name, str) for name in columns):
+        raise ArgumentError(f"columns is {columns!r}; it must be a list of names")
+    source = _source(spec)
+    if folder is not None:
+        return _computed(source, Path(folder).absolute(), True, columns, threads, progress)
+    with tempfile.TemporaryDirectory(prefix="frisure-batch-") as temporary:
+        return _computed(source, Path(temporary), False, columns, threads, progress)
+
+
+def _source(spec: Any) -> Any:
+    """A path, or a description with the folder that its paths are relative to."""
+    if isinstance(spec, Mapping) or isinstance(spec, str) and "\n" in spec:
+        return spec, Path.cwd()
+    if isinstance(spec, (str, os.PathLike)):
+        return Path(spec)
+    raise TypeError(f"spec is of the type {type(spec).__name__}; it must be a dict, a path or a text")
+
+
+def _computed(
+    source: Any,
+    folder: Path,
+    lasts: bool,
+    columns: Sequence[str] | None,
+    threads: int | None,
+    progress: Progress | None,
+) -> pyarrow.Table:
+    import pyarrow
+    import pyarrow.parquet
+
+    _frisure.run_batch(source, folder, lasts, threads, progress)
+    tables = []
+    for path in sorted(folder.glob("part-*.parquet")):
+        # Read whole: the folder may be removed.
+        file = pyarrow.parquet.ParquetFile(path, memory_map=False)
+        unknown = sorted(set(columns or ()) - set(file.schema_arrow.names))
+        if unknown:
+            raise ArgumentError(f"columns has {unknown[0]!r}; there are {', '.join(file.schema_arrow.names)}")
+        tables.append(file.read(columns=None if columns is None else list(columns)))
+        file.close()
+    return pyarrow.concat_tables(tables)
