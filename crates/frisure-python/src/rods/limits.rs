@@ -1,4 +1,5 @@
-//! Ranges of what rods are made of: wide enough for anything that is a fibre, and narrow enough that every rod comes to rest.
+//! Ranges of what rods are made of: wide enough for anything that is a fibre, and narrow enough that the solver ends, with the ends of
+//! the ranges in all combinations.
 
 /// The range of a number, and how messages tell it.
 pub(super) struct Limits {
