@@ -1,6 +1,7 @@
 //! The hairstyle of a scene before its first step.
 
 use frisure::files::Files;
+use frisure::files::frame::UpAxis;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
     Adoption, Hairstyle, HairstyleSpec, PredictError, PredictOptions, adopt, predict, transfer,
@@ -84,9 +85,15 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
         *distances.select_nth_unstable_by(half, f64::total_cmp).1
     };
     let distance = median(TURNS[0].1, 1.0);
-    // A head is so round that turned roots may be near its skin again.
-    let fits = |turn| distance > SURE && median(turn, 1.0) < NEARER * distance;
-    let turned = TURNS[1..].iter().find(|(_, turn)| fits(*turn));
+    // An axis that the scene names already is how the groom was read, and naming it again changes nothing.
+    let named = scene.groom.as_ref().and_then(|file| file.frame.up).map_or("", UpAxis::name);
+    let turns = || TURNS.iter().filter(|(up, _)| up.is_empty() || *up != named);
+    // A head is so round that turned roots may be near its skin again; far from it, any turn may come a good part nearer.
+    let fits = |turn| {
+        let turned = median(turn, 1.0);
+        distance > SURE && turned < NEARER * distance && turned <= MOST_DISTANCE
+    };
+    let turned = turns().skip(1).find(|(_, turn)| fits(*turn));
     if distance <= MOST_DISTANCE && turned.is_none() {
         return Ok(());
     }
@@ -98,7 +105,7 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
     };
     let suggestion = match turned {
         Some((up, _)) => format!(", but with {up} up they fit"),
-        None => TURNS.iter().find_map(scaled).unwrap_or_default(),
+        None => turns().find_map(scaled).unwrap_or_default(),
     };
     let possible = if distance > MOST_DISTANCE { "; 1 cm is possible" } else { "" };
     let problem = format!(
@@ -141,4 +148,55 @@ fn evenly(strands: &Strands, most: usize) -> Strands {
         chosen.push(strand.points, strand.radii);
     }
     chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of roots (m, as read) on a head, where the scene has these lines in `[groom]`.
+    fn told(head: &Head, roots: &[DVec3], lines: &str) -> Option<(String, String)> {
+        let text = format!("[groom]\nfile = \"a.hair\"\n{lines}\n");
+        let scene = Scene::parse("a", text, "".as_ref()).unwrap();
+        let mut guides = Strands::new();
+        for root in roots {
+            let points = [root.as_vec3(), root.as_vec3() + glam::Vec3::Z];
+            guides.push(&points, &[1e-5; 2]);
+        }
+        let error = check_roots(&scene, head, &guides).err()?;
+        let found = error.diagnostic().unwrap();
+        Some((found.message(), found.hint.clone()))
+    }
+
+    fn scalp(head: &Head) -> Vec<DVec3> {
+        let all = head.surface().positions().iter().zip(head.scalp());
+        all.filter(|(_, weight)| **weight > 0.5).map(|(p, _)| *p).collect()
+    }
+
+    #[test]
+    fn an_axis_that_the_scene_names_is_not_suggested_again() {
+        let head = Head::mannequin();
+        // A person of 1.7 m in inches, y up, read as centimetres, z up.
+        let read = |p: &DVec3| {
+            let p = *p + 1.52 * DVec3::Z;
+            0.01 / 0.0254 * DVec3::new(p.x, p.z, -p.y)
+        };
+        let roots: Vec<DVec3> = scalp(&head).iter().map(read).collect();
+        for lines in ["up = \"z\"", "up = \"z\"\nunit = \"cm\"", ""] {
+            let (problem, hint) = told(&head, &roots, lines).unwrap();
+            assert!(!problem.contains("they fit"), "{lines}: {problem}");
+            assert!(hint.contains("scale = 2.54\nturn = [90, 0, 0]"), "{lines}: {hint}");
+        }
+    }
+
+    #[test]
+    fn the_other_axis_is_suggested_where_it_brings_roots_onto_the_skin() {
+        let head = Head::mannequin();
+        let roots: Vec<DVec3> = scalp(&head).iter().map(|p| DVec3::new(p.x, p.z, -p.y)).collect();
+        for lines in ["", "up = \"z\""] {
+            let (problem, _) = told(&head, &roots, lines).unwrap();
+            assert!(problem.ends_with("but with y up they fit"), "{problem}");
+        }
+        assert_eq!(told(&head, &scalp(&head), "up = \"z\""), None);
+    }
 }
