@@ -214,11 +214,13 @@ impl Rod {
         self.weight * self.length().powi(3) / self.stiffness.x.min(self.stiffness.y)
     }
 
-    /// The moment that gradients are measured against: EI/L + ρ S g L² (N m), with the largest
-    /// stiffness.
+    /// The moment that gradients are measured against: EI/L + ρ S g L² (N m), with the larger bending
+    /// stiffness. The stiffness of torsion does not count: of a fibre that hardly twists the moment of
+    /// its weight would be small beside it, and any shape would be at rest.
     #[must_use]
     pub fn moment_scale(&self) -> f64 {
-        self.stiffness.max_element() / self.length() + self.weight * self.length().powi(2)
+        let bending = self.stiffness.x.max(self.stiffness.y);
+        bending / self.length() + self.weight * self.length().powi(2)
     }
 }
 

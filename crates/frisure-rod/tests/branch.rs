@@ -389,3 +389,22 @@ proptest! {
         check(&rod, &[], &Options { resolution, eigenvalue: false, ..Options::default() })?;
     }
 }
+
+#[test]
+fn a_rod_that_hardly_twists_comes_to_rest_all_the_same() {
+    // As G grows the shape tends to that of a rod that cannot twist. Rounding grows with G: a shape that is called at rest is one.
+    let stiff = |factor: f64| {
+        let material = Material::new(3e9, 1.1e9 * factor, 1300.0).unwrap();
+        Rod::new(RodSpec { material, ..curl() }).unwrap()
+    };
+    let limit = stiff(1e4);
+    let limit = equilibrium(&limit, &[], &accuracy(&limit, 1e-4));
+    for factor in [1e5, 1e7, 1e9, 1e11, 1e13, 1e15] {
+        let rod = stiff(factor);
+        let found = equilibrium(&rod, &[], &accuracy(&rod, 1e-4));
+        let met = found.certificate.accuracy == frisure_rod::AccuracyStatus::Met;
+        let gap = gap(&found, &limit);
+        assert!(!met || gap < 5e-4 * rod.length(), "{factor:e}: {gap}");
+        assert!(met || factor > 1e8, "{factor:e}");
+    }
+}
