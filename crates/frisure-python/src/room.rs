@@ -5,11 +5,17 @@ use pyo3::prelude::*;
 
 use crate::errors::raise;
 
+/// Memory that is not looked up (bytes): asking the system takes longer than solving a few rods.
+const SMALL: f64 = 16e6;
+
 /// Checks that so many things (`rods`, `lines`) of so many bytes each have room in memory.
 ///
 /// # Errors
 /// [`Error::Invalid`], with the memory that is needed and free, and how many have room.
 pub(crate) fn check(things: &str, count: usize, each: f64) -> Result<(), Error> {
+    if count as f64 * each <= SMALL {
+        return Ok(());
+    }
     let fits = |count: usize| memory::check_points(count as f64, each);
     let Err(error) = fits(count) else { return Ok(()) };
     // The most that fit, by halves: the library says whether some do.

@@ -247,6 +247,7 @@ def _lines(name: str, value: Any, columns: int) -> tuple[Float64, NDArray[np.int
             if row.ndim != 2 or row.shape[1] != columns:
                 raise ArgumentError(f"{name}[{i}] has the shape {row.shape}; it must be (P, {columns})")
         offsets = np.cumsum([0, *(len(row) for row in rows)], dtype=np.int64)
+        check_room("points", int(offsets[-1]), POINT)
         return np.concatenate(rows), offsets
     array = _array(name, value)
     if array.shape == (0,):
@@ -331,7 +332,7 @@ def _integers(name: str, value: Any, count: int) -> NDArray[np.int64]:
         array = np.full(count, array)
     if array.shape != (count,):
         raise ArgumentError(f"{name} has the shape {array.shape}; it must be () or ({count},): one for each line")
-    return np.ascontiguousarray(array, dtype=np.int64)
+    return np.require(array, np.int64, ["C", "ALIGNED"])
 
 
 def _vectors(name: str, value: Any, count: int) -> Float64:

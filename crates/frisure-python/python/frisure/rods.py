@@ -117,9 +117,10 @@ class _Kept:
     d1: Float64
     curl_radius: Float64
     curl_pitch: Float64
-    natural_strain: Float64 | None
+    strains: int
+    """Natural strains of each rod, K; 0 for a curl."""
     knots: bool
-    """Whether the natural strain was given at knots, (H, K, 3)."""
+    """Whether they were given at knots, (H, K, 3)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,10 +193,10 @@ class Settled:
         length, gravity, bound = numbers
         uniform = np.asarray(halves.sum(axis=1), dtype=np.float64)
         strain, by_radius, by_pitch = uniform, None, None
-        if kept.natural_strain is None:
+        if kept.strains == 0:
             by_radius, by_pitch = _by_curl(uniform, kept.curl_radius, kept.curl_pitch)
-        elif kept.natural_strain.shape[1] > 1:
-            weights = _knot_weights(halves.shape[1], kept.natural_strain.shape[1])
+        elif kept.strains > 1:
+            weights = _knot_weights(halves.shape[1], kept.strains)
             strain = np.asarray(np.einsum("hnc,nk->hkc", halves, weights), dtype=np.float64)
         elif kept.knots:
             strain = uniform[:, np.newaxis]
@@ -270,7 +271,7 @@ class Settled:
         turned = _turned(changes.pop("tangent"), changes.pop("d1"), kept.tangent, kept.d1)
         changes["root_rotation"] = _sum(changes["root_rotation"], turned)
         radius, pitch = changes.pop("curl_radius"), changes.pop("curl_pitch")
-        if kept.natural_strain is not None and not (radius is None and pitch is None):
+        if kept.strains and not (radius is None and pitch is None):
             raise ArgumentError("the rods have a natural_strain, and no curl_radius or curl_pitch to change")
         strain = None
         if radius is not None or pitch is not None:
@@ -330,12 +331,11 @@ def _strain_of_curl(
 
 def _by_halves(kept: _Kept, change: Float64) -> Float64:
     """The change of the natural strain of the halves of elements, (H, 2 elements, 3) or all along (H, 1, 3), by one of the argument."""
-    knots = 1 if kept.natural_strain is None else kept.natural_strain.shape[1]
     if change.shape[1] == 1:
         return change
-    if change.shape[1] != knots:
-        raise ArgumentError(f"natural_strain has {change.shape[1]} knots; the rods have {knots}")
-    weights = _knot_weights(2 * (kept.nodes - 1), knots)
+    if change.shape[1] != kept.strains:
+        raise ArgumentError(f"natural_strain has {change.shape[1]} knots; the rods have {max(kept.strains, 1)}")
+    weights = _knot_weights(2 * (kept.nodes - 1), kept.strains)
     return np.asarray(np.einsum("hkc,nk->hnc", change, weights), dtype=np.float64)
 
 
@@ -550,14 +550,11 @@ def settle(
     settled, rods = Settled(*arrays[:-1]), arrays[-1]
     if rods is not None:
         # Copies: the caller may change the arguments before it asks for derivatives.
-        kept: dict[str, Any] = {name: None if clamped[name] is None else clamped[name].copy() for name in _DERIVED}
-        knots = np.ndim(natural_strain if natural_strain is not None else 0) == 3
-        settled.__dict__["_kept"] = _Kept(rods, elements + 1, **kept, knots=knots)
+        tangents, d1s, radii, pitches = (clamped[name].copy() for name in ("tangent", "d1", "curl_radius", "curl_pitch"))
+        strains = 0 if natural_strain is None else clamped["natural_strain"].shape[1]
+        knots = natural_strain is not None and np.ndim(natural_strain) == 3
+        settled.__dict__["_kept"] = _Kept(rods, elements + 1, tangents, d1s, radii, pitches, strains, knots)
     return settled
-
-
-_DERIVED = ("tangent", "d1", "curl_radius", "curl_pitch", "natural_strain")
-"""The arguments from which the derivatives by themselves are computed."""
 
 
 def _options(elements: Any, precision: Any) -> tuple[int, Any]:
@@ -613,8 +610,12 @@ def _check(arguments: dict[str, Any]) -> None:
     """Checks arguments of `settle` without solving anything."""
     fibre = {name: arguments.get(name, value) for name, value in _FIBRE.items()}
     fibres = _fibres(**fibre)
-    clamp: dict[str, Any] = {"root": (0.0, 0.0, 0.0), "tangent": (1.0, 0.0, 0.0), "d1": None} | {name: None for name in _DERIVED[2:]}
-    clamped = _clamped(arguments["length"], **{name: arguments.get(name, value) for name, value in clamp.items()})
+    clamped = _clamped(
+        arguments["length"],
+        arguments.get("root", (0.0, 0.0, 0.0)),
+        arguments.get("tangent", (1.0, 0.0, 0.0)),
+        *(arguments.get(name) for name in ("d1", "curl_radius", "curl_pitch", "natural_strain")),
+    )
     count = _count({name: array for name, array in (fibres | clamped).items() if array is not None})
     check_rods(count, fibres, clamped)
 

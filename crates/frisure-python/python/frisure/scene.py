@@ -219,7 +219,7 @@ class Scene(Section):
         if isinstance(value, (list, tuple)) and isinstance(there, list) and any(isinstance(item, dict) for item in there):
             return [(path, None), (path, value)]
         if not isinstance(value, Mapping) or not isinstance(there, dict):
-            return [] if value is None and there is None else [(path, value)]
+            return [(path, value)]
         if isinstance(value, Section):
             value = value.to_dict()
         gone = [(f"{path}.{key}", None) for key in there if value.get(key) is None]

@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
+use super::kept::{Kept, mass_per_length};
 use super::motion::{self, Changes};
 use crate::errors::raise;
 use crate::{room, work};
@@ -25,15 +26,6 @@ const BLOCK: usize = 1 << 18;
 /// Rods at rest, kept for their derivatives.
 #[pyclass(frozen, module = "frisure._frisure")]
 pub(crate) struct RodsAtRest(Arc<Kept>);
-
-/// Rods and their equilibria.
-pub(super) struct Kept {
-    pub(super) rods: Vec<Rod>,
-    pub(super) elements: usize,
-    /// Rods of each solution but the last.
-    pub(super) chunk: usize,
-    pub(super) found: Vec<BatchSolution>,
-}
 
 /// The derivatives of H rods of N elements as arrays: by the natural strain of each half of an element (H, 2 N, 3); by gravity as a
 /// vector, root, rotation of the root, stiffness (H, 3); by moduli and density (H, 3): Young's, shear, density; by section (H, 2):
@@ -121,7 +113,8 @@ impl RodsAtRest {
     ) -> PyResult<Motions<'py>> {
         let kept = Arc::clone(&self.0);
         let shape = [kept.rods.len(), kept.elements + 1, 3];
-        let each = 2 * size_of::<DVec3>() * shape[1];
+        // Twice: as they are computed, and in arrays.
+        let each = size_of::<Vec<DVec3>>() + 4 * size_of::<DVec3>() * shape[1];
         room::check("rods", shape[0], each as f64).map_err(|e| raise(py, &e))?;
         let changes = changes.owned();
         let moved = work::run(py, progress, move |p| motion::of(&kept, &changes, p))?;
@@ -191,7 +184,7 @@ impl Lists {
             root_rotation: by.root_rotation,
         };
         // Weight per length is ρ S g.
-        let mass = motion::mass_per_length(rod);
+        let mass = mass_per_length(rod);
         let vectors = [by.load * mass, by.root_position, by.root_rotation, by.stiffness];
         for (list, vector) in self.vectors.iter_mut().zip(vectors) {
             list.extend(vector.to_array());

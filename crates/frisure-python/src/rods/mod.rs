@@ -3,6 +3,7 @@
 mod fibres;
 mod gradient;
 mod inverse;
+mod kept;
 mod limits;
 mod motion;
 mod settle;

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
-use super::gradient::Kept;
+use super::kept::{Kept, mass_per_length};
 
 /// Changes of rods in SI units: each has one row for all rods, or one for each; none where nothing changes.
 #[derive(FromPyObject)]
@@ -159,11 +159,6 @@ impl OwnedChanges {
         let down = if weightless { DVec3::NEG_Z * self.gravity.at(index) } else { DVec3::ZERO };
         (self.gravity_vector.one(index) + down) * mass_per_length(rod)
     }
-}
-
-/// Mass per length of a rod (kg/m).
-pub(super) fn mass_per_length(rod: &Rod) -> f64 {
-    rod.spec().material.density() * rod.spec().section.area()
 }
 
 /// How rods move along changes.

@@ -90,7 +90,9 @@ impl Options {
         let nodes = size_of::<[f64; 3]>() * (self.elements + 1);
         // Energy, gradient and error; iterations, and whether it is stable.
         let numbers = 3 * size_of::<f64>() + size_of::<u32>() + size_of::<bool>();
-        let kept = size_of::<RodSolution>() + size_of::<[f64; 3]>() * self.elements;
+        // The solution, and tangent, d1 and curl in Python.
+        let clamp = 8 * size_of::<f64>();
+        let kept = size_of::<RodSolution>() + clamp + size_of::<[f64; 3]>() * self.elements;
         numbers + if self.points { nodes } else { 0 } + if self.derivatives { kept } else { 0 }
     }
 
