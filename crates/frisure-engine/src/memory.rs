@@ -1,6 +1,7 @@
 //! The memory that a prediction and its picture take, estimated before the work.
 
 use frisure::hairstyle::{HairContact, HairModel, Hairs, HairstyleSpec, StrandContact};
+use frisure::rod::Resolution;
 
 use crate::error::Error;
 
@@ -31,27 +32,63 @@ pub enum Work {
 // All measured as the largest resident size of `frisure predict` and `frisure render` on x86-64 Linux, as differences
 // between two sizes, and rounded up.
 
-/// A program with a head and few hairs (bytes). Measured: 50 to 60 MB.
-const PROGRAM: f64 = 64e6;
+/// A program with a head and few hairs (bytes). Measured: 84 MB, 101 with a small preview.
+const PROGRAM: f64 = 100e6;
 
-/// A wisp that touches others (bytes). Measured between 400 and 1600 wavy wisps of 10 cm: 172 kB.
-const TOUCHING_WISP: f64 = 2e5;
+/// A program without a head (bytes). Measured: 9 MB.
+const WITHOUT_HEAD: f64 = 20e6;
+
+/// What a wisp takes that touches others.
+struct Touching {
+    /// Where it is a metre long, and where there are [`CROWD`] wisps (bytes).
+    metre: f64,
+    /// Power of its length (m) with which it grows.
+    power: f64,
+    /// For each element, where their number is given (bytes).
+    element: f64,
+}
+
+/// Wisps that touch one by one. Measured beside a program with few: each of 400 wavy wisps 262 kB with 25 cm and 427 kB with 40 cm, each of
+/// 800 wisps of 25 cm 366 kB, each of 1600 of 10 cm 198 kB, each of 4000 of 6 cm 270 kB, and each of 200 of 20 cm in 300 elements 645 kB.
+/// Shorter and fewer ones take less: 71 kB each of 800 of 10 cm.
+const TOUCHING: Touching = Touching { metre: 1.45e6, power: 1.0, element: 1.6e3 };
+
+/// Wisps that press on each other as a volume. Measured: each of 400 wavy wisps 62 kB with 10 cm and 735 kB with 40 cm, each of 800 of 40 cm
+/// 1.13 MB, each of 1600 of 10 cm 136 kB, and each of 200 of 20 cm in 300 elements 1.55 MB.
+const PRESSING: Touching = Touching { metre: 4e6, power: 1.7, element: 4.6e3 };
+
+/// Wisps at which the lengths above hold. More of them are nearer, and touch in more places: what each takes grows about as the square root of
+/// their number.
+const CROWD: f64 = 400.0;
 
 /// A simulated hair in contact with others (bytes). Measured between 1 000 and 10 000 straight hairs of 25 cm: 45 kB.
 const HAIR_IN_CONTACT: f64 = 6e4;
 
-/// A point of a drawn hair, in a report or a file (bytes). Measured between 2 and 8 million points: 29 and 58.
-const POINT: f64 = 60.0;
+/// A point of a drawn hair, in a report or a file (bytes). Measured with 4 to 7 million points: 41 in `.hair`, `.obj` and `.ply`, 45 in
+/// `.abc`, 53 to 65 in `.npz`, 77 to 94 in `.usda` and `.usdc`.
+const POINT: f64 = 95.0;
 
 /// A point at a time in a file of several times (bytes). Measured with six times of 2 million points: 13 in `.abc`, 41 in
 /// `.usdc`.
 const MOVING_POINT: f64 = 45.0;
 
-/// The same in a preview (bytes). Measured: 74.
-const PREVIEWED_POINT: f64 = 80.0;
+/// A point of a hair in a preview (bytes), beside its pieces. Measured with 3 to 7 million points, with the pieces: 89 in straight hair of
+/// 3 cm, 143 and 159 of 25 cm, 183 in curly and 221 in kinky hair.
+const PREVIEWED_POINT: f64 = 60.0;
 
-/// The same in a traced picture (bytes). Measured: 144.
-const TRACED_POINT: f64 = 150.0;
+/// A straight piece that a preview draws (bytes): 40 of a vertex, and its places in the lists of tiles.
+const PIECE: f64 = 45.0;
+
+/// Pieces of a preview: largest turn (rad), length (m), and length on the picture (pixels), as `frisure-render` has them.
+const PIECE_TURN: f64 = 0.2;
+const PIECE_LENGTH: f64 = 6e-3;
+const PIECE_PIXELS: f64 = 16.0;
+
+/// What a preview shows across (m): a head with some room.
+const SHOWN: f64 = 0.4;
+
+/// A point of a hair in a traced picture (bytes). Measured: 207 in straight hair of 3 cm, 229 in kinky hair, 240 in straight hair of 25 cm.
+const TRACED_POINT: f64 = 240.0;
 
 /// A pixel of a preview with its file (bytes). Measured between 500² and 4000² pixels: 30 to 36.
 const PREVIEWED_PIXEL: f64 = 36.0;
@@ -59,7 +96,7 @@ const PREVIEWED_PIXEL: f64 = 36.0;
 /// A pixel of a traced picture with its checkpoint and its file (bytes). Measured between 512² and 1536² pixels: 154.
 const TRACED_PIXEL: f64 = 160.0;
 
-/// A point of a hair in a picture with maps (bytes): that of a preview and of the tree of a traced picture.
+/// A point of a hair in a picture with maps (bytes), beside its pieces: that of a preview and of the tree of a traced picture.
 const VIEWED_POINT: f64 = PREVIEWED_POINT + TRACED_POINT;
 
 /// A pixel of a picture with maps, while they are made (bytes): a preview, the maps, and both encoded.
@@ -68,8 +105,9 @@ const VIEWED_PIXEL: f64 = PREVIEWED_PIXEL + 100.0;
 /// A pixel of a picture with maps in a file (bytes). All maps without compression.
 const KEPT_PIXEL: f64 = 25.0;
 
-/// Area on which hair grows (m²). That of the mannequin is 0.07.
-const SCALP: f64 = 0.07;
+/// Hairs over the density of the scalp (m²). Measured: 0.051 on the mannequin and 0.053 on the built-in woman's head, whose scalp thins out at
+/// its edge.
+const SCALP: f64 = 0.056;
 
 /// Most hairs, and most points of all, that a head can have.
 const MOST_HAIRS: f64 = 1e6;
@@ -88,16 +126,43 @@ pub fn estimate(spec: &HairstyleSpec, work: Work) -> f64 {
         Work::Views { hairs: most, .. } => hairs.min(most as f64),
         _ => hairs,
     };
-    let touch = matches!(spec.contact.hair, HairContact::Wisps | HairContact::Density);
-    let touching = if touch { wisps } else { 0.0 };
     let points = hairs * spec.wisps.points as f64;
     let pushing = spec.wisps.strands == HairModel::Simulated
         && spec.wisps.contact != StrandContact::Tube
         && work != Work::Guides;
     let contact = if pushing { hairs.min(MOST_HAIRS) * HAIR_IN_CONTACT } else { 0.0 };
     // More are refused by the key that asks for them, when the area of the scalp is known.
-    let points = if hairs > MOST_HAIRS || points > MOST_POINTS { 0.0 } else { points };
-    PROGRAM + touching * TOUCHING_WISP + contact + points * point(work) + picture(work)
+    let drawn = if hairs > MOST_HAIRS || points > MOST_POINTS { 0.0 } else { hairs };
+    let hair = spec.wisps.points as f64 * point(work) + pieces(spec, work) * PIECE;
+    PROGRAM + touching(spec) + contact + drawn * hair + picture(work)
+}
+
+/// Memory of wisps that touch each other (bytes).
+fn touching(spec: &HairstyleSpec) -> f64 {
+    let Touching { metre, power, element } = match spec.contact.hair {
+        HairContact::Wisps => TOUCHING,
+        HairContact::Density => PRESSING,
+        HairContact::None | HairContact::Layers => return 0.0,
+    };
+    let wisps = spec.wisps.count as f64;
+    let elements = match spec.equilibrium.resolution {
+        Resolution::Elements(n) => n as f64,
+        // As many as the length asks for, which are in the memory of each metre.
+        Resolution::Accuracy(_) => 0.0,
+    };
+    wisps * (metre * spec.length.mean.powf(power) * (wisps / CROWD).sqrt() + elements * element)
+}
+
+/// Straight pieces of a hair in a preview: one between two points, and as many more as its turns, its length and its pixels need.
+fn pieces(spec: &HairstyleSpec, work: Work) -> f64 {
+    let pixels = match work {
+        Work::Guides | Work::Hairs | Work::Motion(_) | Work::Traced(_) => return 0.0,
+        Work::Preview(pixels) | Work::Views { pixels, .. } => pixels as f64,
+    };
+    let length = spec.length.mean;
+    let turns = spec.curl.strain.truncate().length() * length / PIECE_TURN;
+    let across = length / SHOWN * pixels.sqrt() / PIECE_PIXELS;
+    spec.wisps.points as f64 + turns.max(length / PIECE_LENGTH).max(across)
 }
 
 fn point(work: Work) -> f64 {
@@ -137,7 +202,7 @@ pub fn check(spec: &HairstyleSpec, work: Work) -> Result<(), Error> {
 /// As [`check`].
 pub fn check_among(computations: usize, spec: &HairstyleSpec, work: Work) -> Result<(), Error> {
     let share = available().map(|room| room / computations.max(1) as u64);
-    check_within(estimate(spec, work), work, share)
+    check_within(|work| estimate(spec, work), touching(spec), work, share)
 }
 
 /// The same of a picture of hair that is read from a file.
@@ -145,45 +210,83 @@ pub fn check_among(computations: usize, spec: &HairstyleSpec, work: Work) -> Res
 /// # Errors
 /// As [`check`].
 pub fn check_picture(work: Work) -> Result<(), Error> {
-    check_within(PROGRAM + picture(work), work, available())
+    check_within(|work| PROGRAM + picture(work), 0.0, work, available())
 }
 
 /// A point of a hair that is read and written anew (bytes). Measured with 40 000 hairs between 100 and 400 points: 50.
 pub const CONVERTED_POINT: f64 = 60.0;
 
-/// A point of one hair in JSON (bytes). Measured between 100 000 and a million: 282.
-pub const PRINTED_POINT: f64 = 300.0;
+/// A point of one hair in JSON (bytes). Measured with a million: 287, and 450 of addresses, because a text that grows is twice as long.
+pub const PRINTED_POINT: f64 = 450.0;
 
 /// The same of a number of points with so many bytes each, beside the program.
 ///
 /// # Errors
 /// As [`check`].
 pub fn check_points(points: f64, each: f64) -> Result<(), Error> {
-    check_within(PROGRAM + points * each, Work::Hairs, available())
+    check_within(|_| WITHOUT_HEAD + points * each, 0.0, Work::Hairs, available())
 }
 
-fn check_within(needed: f64, work: Work, available: Option<u64>) -> Result<(), Error> {
+/// What helps where wisps that touch each other are what is too large.
+const FEWER_WISPS: &str = "make fewer wisps (`wisps.count`), or set `contact.hair = \"layers\"`";
+
+/// Compares what a work needs, of which so much is for wisps that touch, with what is available (bytes).
+fn check_within(
+    needs: impl Fn(Work) -> f64,
+    touching: f64,
+    work: Work,
+    available: Option<u64>,
+) -> Result<(), Error> {
+    let needed = needs(work);
     let Some(available) = available.filter(|&room| needed > room as f64) else { return Ok(()) };
     let amount = |bytes: f64| match bytes / 1e9 {
         gigabytes if gigabytes < 1.0 => format!("{:.0} MB", 1e3 * gigabytes),
         gigabytes => format!("{gigabytes:.1} GB"),
     };
-    let most = (available as f64 - (needed - picture(work))).max(0.0);
+    let has_room = |pixels: usize| needs(with_pixels(work, pixels)) <= available as f64;
     let hint = match work {
-        Work::Guides => "make fewer wisps (`wisps.count`), or set `contact.hair = \"layers\"`",
+        Work::Guides => FEWER_WISPS,
+        _ if touching > 0.5 * needed => FEWER_WISPS,
         Work::Hairs | Work::Motion(_) => "draw fewer hairs, or give them fewer points",
         Work::Views { .. } => {
             "make smaller views (`views.size`) or fewer (`views.cameras`), draw fewer hairs (`views.hairs`), have fewer \
              heads in a file (`rows`), or compute on fewer threads"
         }
         // Where the picture is not what is too large.
-        _ if picture(work) < 0.5 * needed => "draw fewer hairs, or give them fewer points",
-        Work::Preview(_) => &format!("a picture of {:.0} pixels has room", most / PREVIEWED_PIXEL),
-        Work::Traced(_) => &format!("a picture of {:.0} pixels has room", most / TRACED_PIXEL),
+        _ if !has_room(1) || needs(with_pixels(work, 1)) > 0.5 * needed => {
+            "draw fewer hairs, or give them fewer points"
+        }
+        Work::Preview(pixels) | Work::Traced(pixels) => {
+            &format!("a picture of {} pixels has room", largest(pixels, has_room))
+        }
     };
     let (needed, room) = (amount(needed), amount(available as f64));
     let problem = format!("it takes about {needed} of memory, and {room} are free");
     Err(Error::invalid(problem, hint))
+}
+
+/// Addresses (bytes) that the allocator of the C library reserves for a thread and does not use. Measured: at its end, a process has 60 to
+/// 250 MB more of addresses than at its beginning beside what it takes.
+#[cfg(target_os = "linux")]
+const RESERVED: u64 = 64 << 20;
+
+/// The same work with a picture of so many pixels.
+fn with_pixels(work: Work, pixels: usize) -> Work {
+    match work {
+        Work::Preview(_) => Work::Preview(pixels),
+        Work::Traced(_) => Work::Traced(pixels),
+        Work::Guides | Work::Hairs | Work::Motion(_) | Work::Views { .. } => work,
+    }
+}
+
+/// The largest number of which something holds, between one, of which it holds, and `most`, of which it does not.
+fn largest(most: usize, holds: impl Fn(usize) -> bool) -> usize {
+    let (mut good, mut bad) = (1, most);
+    while bad > good + 1 {
+        let middle = good + (bad - good) / 2;
+        *(if holds(middle) { &mut good } else { &mut bad }) = middle;
+    }
+    good
 }
 
 /// Memory that this process can still take (bytes), if the system tells: what is free, what the limit of its address
@@ -203,7 +306,8 @@ fn available() -> Option<u64> {
         let anonymous = used.lines().find_map(|line| line.strip_prefix("anon "))?;
         Some(text.trim().parse::<u64>().ok()?.saturating_sub(anonymous.trim().parse().ok()?))
     });
-    [free, limit.map(|limit| limit.saturating_sub(used)), group].into_iter().flatten().min()
+    let addresses = limit.map(|limit| limit.saturating_sub(used + RESERVED));
+    [free, addresses, group].into_iter().flatten().min()
 }
 
 /// A number of kilobytes in a text of the system, in bytes.
@@ -227,7 +331,8 @@ mod tests {
 
     fn fault(work: Work, room: u64) -> Option<(String, String)> {
         let spec = preset("wavy").unwrap().spec();
-        let error = check_within(estimate(&spec, work), work, Some(room)).err()?;
+        let error =
+            check_within(|work| estimate(&spec, work), touching(&spec), work, Some(room)).err()?;
         Some((error.to_string(), error.hint().to_owned()))
     }
 
@@ -251,7 +356,64 @@ mod tests {
         assert_eq!(fault(Work::Guides, 1 << 28), None);
         let (_, hint) = fault(Work::Guides, 1 << 24).unwrap();
         assert!(hint.contains("`wisps.count`"), "{hint}");
-        assert!(check_within(1e18, Work::Hairs, None).is_ok());
+        assert!(check_within(|_| 1e18, 0.0, Work::Hairs, None).is_ok());
+    }
+
+    /// The estimate over what was measured, as the largest resident size (MB) of `frisure predict` on scenes in the form of
+    /// [`estimate`]'s arguments.
+    #[test]
+    fn estimates_are_above_what_was_measured_and_not_far() {
+        let estimated = |name: &str, work, change: &dyn Fn(&mut HairstyleSpec)| {
+            let mut spec = preset(name).unwrap().spec();
+            change(&mut spec);
+            estimate(&spec, work) * 1e-6
+        };
+        let same = |_: &mut HairstyleSpec| {};
+        let drawn = |length: f64, hairs: usize, points: usize| {
+            move |spec: &mut HairstyleSpec| {
+                spec.length.mean = length;
+                (spec.wisps.hairs, spec.wisps.points) = (Hairs::Count(hairs), points);
+            }
+        };
+        let touch = |hair: HairContact, wisps: usize, length: f64| {
+            move |spec: &mut HairstyleSpec| {
+                spec.length.mean = length;
+                (spec.wisps.count, spec.wisps.points) = (wisps, 4);
+                spec.wisps.hairs = Hairs::Count(100);
+                spec.contact.hair = hair;
+            }
+        };
+        let in_elements = |hair: HairContact| {
+            move |spec: &mut HairstyleSpec| {
+                touch(hair, 200, 0.2)(spec);
+                spec.equilibrium.resolution = Resolution::Elements(300);
+            }
+        };
+        let page = 900 * 1100;
+        let (wisps, density) = (HairContact::Wisps, HairContact::Density);
+        let scenes: [(f64, f64); 17] = [
+            (1613.0, estimated("african-kinky", Work::Preview(page), &same)),
+            (686.0, estimated("caucasian-straight", Work::Preview(page), &same)),
+            (1111.0, estimated("caucasian-curly", Work::Preview(page), &same)),
+            (1145.0, estimated("caucasian-straight", Work::Traced(page), &same)),
+            (734.0, estimated("african-kinky", Work::Hairs, &same)),
+            (481.0, estimated("straight", Work::Preview(200 * 200), &drawn(0.03, 40_000, 100))),
+            (613.0, estimated("straight", Work::Preview(1000 * 1000), &drawn(0.25, 100_000, 32))),
+            (915.0, estimated("straight", Work::Traced(200 * 200), &drawn(0.03, 40_000, 100))),
+            (393.0, estimated("straight", Work::Hairs, &drawn(0.03, 40_000, 100))),
+            (1166.0, estimated("wavy", Work::Hairs, &touch(wisps, 4000, 0.06))),
+            (400.0, estimated("wavy", Work::Hairs, &touch(wisps, 1600, 0.1))),
+            (255.0, estimated("wavy", Work::Hairs, &touch(wisps, 400, 0.4))),
+            (378.0, estimated("wavy", Work::Hairs, &touch(density, 400, 0.4))),
+            (302.0, estimated("wavy", Work::Hairs, &touch(density, 1600, 0.1))),
+            (213.0, estimated("wavy", Work::Hairs, &in_elements(wisps))),
+            (394.0, estimated("wavy", Work::Hairs, &in_elements(density))),
+            (986.0, estimated("wavy", Work::Hairs, &touch(density, 800, 0.4))),
+        ];
+        for (i, (measured, estimated)) in scenes.into_iter().enumerate() {
+            let ratio = estimated / measured;
+            assert!((1.0..=1.55).contains(&ratio), "scene {i}: {estimated:.0} of {measured} MB");
+        }
     }
 
     #[cfg(target_os = "linux")]
