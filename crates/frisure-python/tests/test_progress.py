@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import _thread
+import importlib.util
 import os
 import signal
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import frisure
 import numpy as np
@@ -64,13 +65,15 @@ def test_ctrl_c_ends_the_work_soon() -> None:
         sent.append(time.monotonic())
         _thread.interrupt_main(signal.SIGINT)
 
-    for work in (
+    works: list[Callable[[], object]] = [
         lambda: frisure.predict(LONG),
         lambda: frisure.rods.settle([0.15] * 400_000, curl_radius=5e-3, elements=240),
         # The rods of this one take longer to make than the time until the key is pressed.
         lambda: frisure.rods.settle(np.broadcast_to(0.15, (3_000_000,)), elements=2, points=False),
-        lambda: frisure.batch({"samples": 1000, "volume": False, "set": {"wisps.count": 30}}),
-    ):
+    ]
+    if importlib.util.find_spec("pyarrow"):
+        works.append(lambda: frisure.batch({"samples": 1000, "volume": False, "set": {"wisps.count": 30}}))
+    for work in works:
         sent.clear()
         thread = threading.Thread(target=press)
         thread.start()
