@@ -33,12 +33,16 @@ const LIPS: Vec3 = Vec3::new(0.83, 0.58, 0.60);
 const FLUSH: Vec3 = Vec3::new(0.98, 0.80, 0.80);
 
 /// Linear reflectance of the white of an eye, and of its corners. Chosen.
-const SCLERA: Vec3 = Vec3::new(0.60, 0.56, 0.52);
+const SCLERA: Vec3 = Vec3::new(0.54, 0.49, 0.45);
 const CORNER: Vec3 = Vec3::new(0.50, 0.33, 0.29);
 
 /// Sine of the angle from the gaze to the edge of the iris and of the pupil: an iris of 11.8 mm on a ball of 24 mm
 /// (Rüfer et al. 2005, doi:10.1097/01.ico.0000148312.01805.53), and a pupil of 4 mm in a lit room.
 const IRIS: f32 = 0.44;
+
+/// Heights above the gaze, in radii of the ball, from which on the upper lid darkens it, and where it does so most; and by how much. Chosen by eye.
+const UNDER_LID: [f32; 2] = [0.10, 0.40];
+const LID_SHADE: f32 = 0.5;
 
 /// Radius of the ball over that of the cornea: 12 over 7.8 mm.
 const CORNEA: f32 = 1.54;
@@ -195,6 +199,10 @@ fn eyeball(eye: &Eye, p: DVec3, look: &SkinLook) -> Material {
     let white = SCLERA.lerp(CORNER, (0.7 * smooth(0.62, 0.95) + 0.25 * veins).min(1.0));
     let colour = Vec3::splat(0.004).lerp(iris, smooth(PUPIL - 0.015, PUPIL + 0.015));
     let colour = colour.lerp(white, smooth(IRIS - 0.04, IRIS + 0.03));
+    // Lashes and the edge of the upper lid, which are finer than the mesh, keep light from what is just beneath them.
+    let up = (DVec3::Z - eye.gaze * eye.gaze.z).normalize_or_zero().as_vec3();
+    let under = ((out.dot(up) - UNDER_LID[0]) / (UNDER_LID[1] - UNDER_LID[0])).clamp(0.0, 1.0);
+    let colour = colour * (1.0 - LID_SHADE * under * under * (3.0 - 2.0 * under));
     // The cornea bulges: over the iris its normal turns by the ratio of the radii faster.
     let steep = sine * (CORNEA + (1.0 - CORNEA) * smooth(IRIS - 0.02, IRIS + 0.08));
     let normal = gaze * (1.0 - steep * steep).max(0.0).sqrt() + across.normalize_or_zero() * steep;

@@ -457,6 +457,85 @@ fn natural_strain_counts_where_a_field_acts_between_the_nodes() {
     }
 }
 
+/// A floor at a height (m) of a stiffness (Pa): what is below it is pushed up.
+struct Floor {
+    height: f64,
+    stiffness: f64,
+}
+
+impl Field for Floor {
+    fn energy(&self, _: f64, p: DVec3) -> f64 {
+        0.5 * self.stiffness * (self.height - p.z).max(0.0).powi(2)
+    }
+
+    fn derivatives(&self, _: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        let depth = self.height - p.z;
+        let push = DVec3::NEG_Z * (self.stiffness * depth);
+        let hessian = DMat3::from_diagonal(DVec3::new(0.0, 0.0, self.stiffness));
+        (depth > 0.0).then_some((push, hessian))
+    }
+}
+
+/// The derivative of the energy of a floor by its height.
+struct ByHeight(Floor);
+
+impl Field for ByHeight {
+    fn energy(&self, _: f64, p: DVec3) -> f64 {
+        self.0.stiffness * (self.0.height - p.z).max(0.0)
+    }
+
+    fn derivatives(&self, _: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        (p.z < self.0.height).then_some((DVec3::NEG_Z * self.0.stiffness, DMat3::ZERO))
+    }
+}
+
+#[test]
+fn numbers_of_a_contact_are_parameters_too() {
+    let hair = Hair { length: 0.06, ..Hair::random(&mut SplitMix64(9)) };
+    let rod = hair.rod();
+    let free = equilibrium(&rod, &[], &options(ElementKind::Helix));
+    let lowest = free.shape.positions.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let usual = (lowest + 0.3 * (hair.position.z - lowest), 2.0 * rod.weight() / 0.01);
+    for kind in KINDS {
+        let chain = Chain::uniform(&rod, kind, ELEMENTS);
+        let at = |height: f64, stiffness: f64| {
+            let floor = Floor { height, stiffness };
+            let floor = FieldPotential::new(&floor, 2);
+            let rest = equilibrium(&rod, &[&floor], &options(kind));
+            let felt: [&dyn Potential; 1] = [&floor];
+            Sensitivity::new(&Problem::new(&chain, &felt), rest.shape).unwrap()
+        };
+        let (height, stiffness) = usual;
+        let rest = at(height, stiffness);
+        assert_eq!(rest.regularity(), Regularity::Regular);
+        let (unit, slope) =
+            (Floor { height, stiffness: 1.0 }, ByHeight(Floor { height, stiffness }));
+        let (unit, slope) = (FieldPotential::new(&unit, 2), FieldPotential::new(&slope, 2));
+        let by_stiffness =
+            difference(1e-3 * stiffness, &|x| at(height, stiffness + x).shape().positions.clone());
+        let by_height = difference(2e-6, &|x| at(height + x, stiffness).shape().positions.clone());
+        let numbers: [(&dyn Potential, &[DVec3]); 2] =
+            [(&unit, &by_stiffness), (&slope, &by_height)];
+        for (number, found) in numbers {
+            let moved = rest.jvp_by_potential(&chain, number).unwrap();
+            assert!(
+                gap(&moved.positions, found) < 1e-6,
+                "{kind:?}: {}",
+                gap(&moved.positions, found)
+            );
+            // Backwards: the tip along a direction.
+            let mut loss = vec![DVec3::ZERO; ELEMENTS + 1];
+            loss[ELEMENTS] = DVec3::new(0.3, -0.5, 0.8);
+            let along = moved.positions[ELEMENTS].dot(loss[ELEMENTS]);
+            let back = rest.vjp_by_potentials(&chain, &loss.into(), &[number]).unwrap()[0];
+            assert!((along - back).abs() < 1e-9 * along.abs(), "{along} {back}");
+        }
+        let coarse = Chain::uniform(&rod, kind, ELEMENTS - 1);
+        let wrong = rest.jvp_by_potential(&coarse, &unit).unwrap_err();
+        assert!(matches!(wrong, DerivativeError::Elements { .. }));
+    }
+}
+
 /// Hairs of which every third has a natural strain that varies, and one in seven has no weight.
 fn of_all_kinds(count: usize, seed: u64) -> Vec<Rod> {
     let mut random = SplitMix64(seed);

@@ -7,7 +7,7 @@ use super::{
     AT_REST, DerivativeError, LEAST_EIGENVALUE, ParameterChange, ParameterGradient, Regularity,
     ShapeChange,
 };
-use crate::chain::Shape;
+use crate::chain::{Chain, Shape};
 use crate::minimise::{Energy, NodeChanges, Problem, SecondVariation};
 use crate::potential::{Derivatives, ElementState, Potential};
 
@@ -185,14 +185,9 @@ impl Sensitivity {
     ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
         let positions = self.one_per_node(&by_nodes.positions)?;
         let none = vec![DVec3::ZERO; positions.len()];
-        let rotations = match &by_nodes.rotations {
-            empty if empty.is_empty() => &none,
-            given => self.one_per_node(given)?,
-        };
-        // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x, with rotations in material frames.
-        let inside = self.shape.frames.iter().zip(rotations).map(|(r, g)| r.transpose() * *g);
-        let by_nodes = NodeChanges::new(positions.iter().copied().zip(inside));
-        let a = self.solve(&self.variation.by_node_changes(&by_nodes))?;
+        let rotations = self.rotations_or(by_nodes, &none)?;
+        // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x.
+        let (by_nodes, a) = self.adjoint(positions, rotations)?;
         // 2. −aᵀ ∂g/∂p of each parameter. (D3), (D4)
         let halves = self.pieces.as_ref().map(|pieces| pieces.by_strain(&by_nodes, &a));
         let natural_strain: Vec<DVec3> = match &halves {
@@ -224,6 +219,84 @@ impl Sensitivity {
             root_rotation: turned - self.load.cross(load),
         };
         Ok((gradient, halves.unwrap_or_default()))
+    }
+
+    /// The derivative of a loss by numbers of other potentials, from that by the nodes (loss per m and per rad): of each number p the potential ∂E/∂p is
+    /// given, on the division `chain` of the rod at rest. For the stiffness of a contact it is the same contact with a stiffness of 1, for its place
+    /// the slope of its energy against the shift. docs/theory.md (D6)
+    ///
+    /// Where the second derivative of the potential jumps, as where a node just touches, the derivative is that of the side on which the rod is.
+    ///
+    /// # Errors
+    /// As [`Self::vjp`]; [`DerivativeError::Elements`], if the division has not as many elements as the rod at rest.
+    pub fn vjp_by_potentials(
+        &self,
+        chain: &Chain<'_>,
+        by_nodes: &ShapeChange,
+        by_numbers: &[&dyn Potential],
+    ) -> Result<Vec<f64>, DerivativeError> {
+        let positions = self.one_per_node(&by_nodes.positions)?;
+        let none = vec![DVec3::ZERO; positions.len()];
+        let (_, a) = self.adjoint(positions, self.rotations_or(by_nodes, &none)?)?;
+        let along = |by_number: &&dyn Potential| {
+            let gradient = self.by_controls(chain, *by_number)?;
+            Ok(-a.iter().zip(&gradient).map(|(a, g)| a.dot(*g)).sum::<f64>())
+        };
+        by_numbers.iter().map(along).collect()
+    }
+
+    /// How each node moves per unit of a number p of another potential, of which ∂E/∂p is given: as [`Self::vjp_by_potentials`]. The root stays.
+    ///
+    /// # Errors
+    /// As [`Self::vjp_by_potentials`].
+    pub fn jvp_by_potential(
+        &self,
+        chain: &Chain<'_>,
+        by_number: &dyn Potential,
+    ) -> Result<ShapeChange, DerivativeError> {
+        let mut right = self.by_controls(chain, by_number)?;
+        right.iter_mut().for_each(|g| *g = -*g);
+        let nodes = self.variation.node_changes(&self.solve(&right)?);
+        let (positions, turns): (Vec<DVec3>, Vec<DVec3>) = nodes.iter().unzip();
+        let rotations = turns.iter().zip(&self.shape.frames).map(|(turn, frame)| *frame * *turn);
+        Ok(ShapeChange { positions, rotations: rotations.collect() })
+    }
+
+    /// The gradient of a potential by the controls at rest.
+    fn by_controls(
+        &self,
+        chain: &Chain<'_>,
+        potential: &dyn Potential,
+    ) -> Result<Vec<DVec3>, DerivativeError> {
+        let elements = self.bent.len();
+        if chain.len() != elements {
+            return Err(DerivativeError::Elements { given: chain.len(), elements });
+        }
+        Ok(gradient_of(&Problem::new(chain, &[]), potential, &self.shape))
+    }
+
+    /// A loss by the motion of nodes, with rotations in their material frames, and the a of `H a = (∂x/∂c)ᵀ ∂ℓ/∂x`. docs/theory.md (D2)
+    fn adjoint(
+        &self,
+        positions: &[DVec3],
+        rotations: &[DVec3],
+    ) -> Result<(NodeChanges, Vec<DVec3>), DerivativeError> {
+        let inside = self.shape.frames.iter().zip(rotations).map(|(r, g)| r.transpose() * *g);
+        let by_nodes = NodeChanges::new(positions.iter().copied().zip(inside));
+        let a = self.solve(&self.variation.by_node_changes(&by_nodes))?;
+        Ok((by_nodes, a))
+    }
+
+    /// The derivatives of a loss by rotations of the nodes; none are `none`.
+    fn rotations_or<'a>(
+        &self,
+        by_nodes: &'a ShapeChange,
+        none: &'a [DVec3],
+    ) -> Result<&'a [DVec3], DerivativeError> {
+        match &by_nodes.rotations {
+            empty if empty.is_empty() => Ok(none),
+            given => self.one_per_node(given),
+        }
     }
 
     /// How a change of the parameters moves each node, to first order. docs/theory.md (D1)
