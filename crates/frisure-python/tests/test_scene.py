@@ -181,6 +181,8 @@ def test_keys_that_are_none_are_told() -> None:
         assert key not in scene
         with pytest.raises(frisure.ArgumentError, match="is no key of a scene"):
             scene[key] = 3
+    with pytest.raises(TypeError, match="a key is a text.*and not 3"):
+        scene[3] = 1  # type: ignore[index]
     with pytest.raises(AttributeError, match="does not give `hair.type`"):
         del scene.hair.type
     with pytest.raises(KeyError, match="does not give 'hair.type'"):

@@ -22,6 +22,9 @@ Progress = Callable[[str, float], object]
 KNOWN = ("stiffness_over_weight", "torsion_ratio", "curvature", "torsion", "axis_ratio")
 """What can be known of a fibre before it is measured."""
 
+FEWEST_POINTS = 5
+"""Fewest points of a line, as `frisure_fit` has it."""
+
 MOST_KNOTS = 16
 """Most knots of a natural strain, as `frisure_fit` has it."""
 
@@ -159,6 +162,8 @@ def fit(
         raise ArgumentError(f"known is {known!r}; it must be a dict of numbers, or pairs of value and deviation, by name")
     points, offsets = _lines("strands", strands, 3)
     count = len(offsets) - 1
+    for i in np.flatnonzero(np.diff(offsets) < FEWEST_POINTS)[:1]:
+        raise ArgumentError(f"strands[{i}] has {offsets[i + 1] - offsets[i]} points; a line must have at least {FEWEST_POINTS}")
     arcs = None
     if arc_length is not None:
         arcs = _arcs(arc_length, offsets)

@@ -26,8 +26,11 @@ Progress = Callable[[str, float], object]
 _MOST_PIXELS = sys.maxsize
 """Most pixels along a side that can be counted; memory allows fewer, and says how many."""
 
-_MOST_PATHS = 10_000_000
-"""Most paths of light per pixel, and bounces of one."""
+_MOST_PATHS = 65_536
+"""Most paths of light per pixel, as `frisure render` takes."""
+
+_MOST_BOUNCES = 2**32 - 1
+"""Most bounces of a path that can be counted."""
 
 _NOTEBOOK_WIDTH = 450
 """Width in pixels of the picture in a notebook; chosen."""
@@ -158,7 +161,7 @@ class Hairstyle:
             None if count is None else whole(name, count, 1, _MOST_PIXELS)
             for name, count in (("width", width), ("height", height))
         ]
-        paths, bounces = whole("paths", paths, 1, _MOST_PATHS), whole("bounces", bounces, 1, _MOST_PATHS)
+        paths, bounces = whole("paths", paths, 1, _MOST_PATHS), whole("bounces", bounces, 1, _MOST_BOUNCES)
         noise = real("noise", noise, "a number between 0 and 100 percent", 0, 100)
         if clamp is not None:
             clamp = real("clamp", clamp, "a number above 0, or None", np.nextafter(0, 1))

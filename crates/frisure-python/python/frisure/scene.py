@@ -26,6 +26,8 @@ def _keys() -> dict[str, str]:
 
 def _parts(path: str) -> list[str | int]:
     """The steps of a path such as `region[0].length`."""
+    if not isinstance(path, str):
+        raise TypeError(f"a key is a text, such as 'hair.length', and not {path!r}")
     parts: list[str | int] = []
     for step in path.split("."):
         found = re.fullmatch(r"([^\[\]]+)((?:\[\d+\])*)", step)
