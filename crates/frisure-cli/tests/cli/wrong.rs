@@ -159,8 +159,12 @@ fn more_threads_than_a_machine_has_are_refused() {
 fn what_has_no_room_in_memory_is_refused_before_the_work() {
     let large = format!("{QUICK}width = 16384\nheight = 16384\n");
     let large = large.replacen("width = 32\nheight = 32\n", "", 1);
-    let room = room().with("a.toml", large).with("quick.toml", QUICK);
+    let kinky = "hair.type = \"african-kinky\"\n[head]\nmodel = \"african-woman\"\n";
+    let room = room().with("a.toml", large).with("quick.toml", QUICK).with("k.toml", kinky);
     for (limit, arguments, code) in [
+        // These went on for seconds, and were ended by the system.
+        (2_000_000, "predict k.toml --image a.png", 2),
+        (700_000, "hair quick.toml --points 1000000 --json", 2),
         (4_000_000, "predict a.toml --image a.png", 2),
         (4_000_000, "render quick.toml --size 8192x8192 -o a.png", 2),
         (4_000_000, "predict quick.toml --image a.png", 0),
@@ -171,7 +175,7 @@ fn what_has_no_room_in_memory_is_refused_before_the_work() {
         let ran = shell.current_dir(room.path("")).args(["-c", &line]).output().unwrap();
         let err = String::from_utf8_lossy(&ran.stderr);
         assert_eq!(ran.status.code(), Some(code), "{err}");
-        assert_eq!(err.contains("GB of memory"), code == 2, "{err}");
+        assert_eq!(err.contains("B of memory, and "), code == 2, "{err}");
     }
 }
 

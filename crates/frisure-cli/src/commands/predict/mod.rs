@@ -62,7 +62,7 @@ pub(crate) fn run_scene(
     drop(prediction);
     let Written { report, note, lines } = written?;
     if !quiet {
-        console::print(&summary(&report, spec.contact.body, note.as_deref(), &lines))?;
+        console::print(&summary(&report, &spec, note.as_deref(), &lines))?;
     }
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.
     let missed = requested && report.guides.accuracy_missed > 0;

@@ -2,16 +2,17 @@
 
 use std::fmt::Write;
 
-use frisure::hairstyle::Body;
+use frisure::hairstyle::{Body, HairstyleSpec};
+use frisure::rod::Resolution;
 use frisure_engine::ReplicaReport;
 use frisure_engine::report::{
     DEEP, HairstyleReport, SimulationReport, StepReport, StrandContactReport, WetLockReport,
 };
 
-/// The summary of a prediction on a body; `note` is what was guessed of the head, and `written` has a line about each file.
+/// The summary of a prediction of a description; `note` is what was guessed of the head, and `written` has a line about each file.
 pub(super) fn summary(
     report: &HairstyleReport,
-    body: Body,
+    spec: &HairstyleSpec,
     note: Option<&str>,
     written: &[String],
 ) -> String {
@@ -48,7 +49,7 @@ pub(super) fn summary(
     if guides.accuracy_missed > 0 {
         let _ = write!(out, ", {} less accurate than requested", guides.accuracy_missed);
     }
-    let buried = buried(report, body);
+    let buried = buried(report, spec);
     let replicas = guides.replicas.as_ref().map(replicas_line).unwrap_or_default();
     if written.is_empty() {
         let hint = "add `-o hair.hair`, `--image hair.png` or `--report hair.json`";
@@ -163,18 +164,43 @@ fn wet_line(locks: &WetLockReport) -> String {
 }
 
 /// A warning of hair inside the head, if there is some.
-fn buried(report: &HairstyleReport, body: Body) -> String {
+fn buried(report: &HairstyleReport, spec: &HairstyleSpec) -> String {
     let depth = report.guides.penetration.max(report.hair_penetration.unwrap_or(0.0));
     if depth <= DEEP {
         return String::new();
     }
-    let hint = match body {
-        Body::None => "`contact.body` is \"none\"",
-        Body::Spheres => {
+    format!("warning: hair is {:.1} mm inside the head; {}\n", depth * 1e3, way_out(spec))
+}
+
+/// What keeps hair of a description out of the head.
+fn way_out(spec: &HairstyleSpec) -> &'static str {
+    match (spec.contact.body, spec.equilibrium.resolution) {
+        (Body::None, _) => "`contact.body` is \"none\"",
+        (Body::Spheres, _) => {
             "the spheres are smaller than it; `contact.body = \"signed-distance\"` keeps hair out"
         }
         // What sinks in is mostly a curl between the nodes of a coarse division.
-        Body::SignedDistance => "a smaller `equilibrium.accuracy` may lift it",
-    };
-    format!("warning: hair is {:.1} mm inside the head; {hint}\n", depth * 1e3)
+        (Body::SignedDistance, Resolution::Accuracy(_)) => {
+            "a smaller `equilibrium.accuracy` may lift it"
+        }
+        (Body::SignedDistance, Resolution::Elements(_)) => {
+            "more `equilibrium.elements`, or `accuracy` instead, may lift it"
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_out_names_the_key_that_the_scene_has() {
+        let mut spec = frisure::hairstyle::preset("curly").unwrap().spec();
+        spec.contact.body = Body::SignedDistance;
+        assert!(way_out(&spec).contains("a smaller `equilibrium.accuracy`"));
+        spec.equilibrium.resolution = Resolution::Elements(30);
+        assert!(way_out(&spec).contains("more `equilibrium.elements`"));
+        spec.contact.body = Body::Spheres;
+        assert!(way_out(&spec).contains("`contact.body"));
+    }
 }
