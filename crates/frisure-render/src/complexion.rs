@@ -98,7 +98,7 @@ pub fn material(
     };
     let normal = normal.filter(|_| look.texture > 0.0);
     if tint.garment > 0.5 {
-        let colour = look.garment * cloth_shade(p, look.texture);
+        let colour = (look.garment * cloth_shade(p, look.texture)).min(Vec3::ONE);
         let normal = normal.map(|normal| bent(normal, cloth_slope(p), look.texture));
         return Material { colour, gloss: 0.0, scatters: false, normal, ..skin };
     }
@@ -106,6 +106,8 @@ pub fn material(
     let lips = tint.lips.clamp(0.0, 1.0);
     let spots = if look.texture > 0.0 { spots(p, look.texture * (1.0 - lips)) } else { Vec3::ONE };
     let colour = look.colour * mix(FLUSH, tint.flush) * mix(LIPS, tint.lips.max(0.0)) * spots;
+    // Spots lighter than the palest skin would give back more light than falls in.
+    let colour = colour.min(Vec3::ONE);
     // Lips are moist.
     let roughness = SKIN_ROUGHNESS + (0.2 - SKIN_ROUGHNESS) * lips;
     let normal = normal.map(|normal| bent(normal, skin_slope(p, lips), look.texture));
@@ -251,6 +253,8 @@ mod tests {
             let mean = bends.iter().sum::<f32>() / count as f32;
             assert!((0.05..0.4).contains(&mean), "{mean}");
             assert!(bends.iter().all(|angle| *angle < 1.2));
+            let pale = SkinLook { colour: Vec3::ONE, garment: Vec3::ONE, texture: 3.0, ..look };
+            assert!((0..count).all(|i| at(i, &pale).colour.max_element() <= 1.0));
         }
     }
 
