@@ -183,11 +183,9 @@ impl Sensitivity {
         &self,
         by_nodes: &ShapeChange,
     ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
-        let positions = self.one_per_node(&by_nodes.positions)?;
-        let none = vec![DVec3::ZERO; positions.len()];
-        let rotations = self.rotations_or(by_nodes, &none)?;
         // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x.
-        let (by_nodes, a) = self.adjoint(positions, rotations)?;
+        let ShapeChange { positions, rotations } = by_nodes;
+        let (by_nodes, a) = self.adjoint(by_nodes)?;
         // 2. −aᵀ ∂g/∂p of each parameter. (D3), (D4)
         let halves = self.pieces.as_ref().map(|pieces| pieces.by_strain(&by_nodes, &a));
         let natural_strain: Vec<DVec3> = match &halves {
@@ -235,9 +233,7 @@ impl Sensitivity {
         by_nodes: &ShapeChange,
         by_numbers: &[&dyn Potential],
     ) -> Result<Vec<f64>, DerivativeError> {
-        let positions = self.one_per_node(&by_nodes.positions)?;
-        let none = vec![DVec3::ZERO; positions.len()];
-        let (_, a) = self.adjoint(positions, self.rotations_or(by_nodes, &none)?)?;
+        let (_, a) = self.adjoint(by_nodes)?;
         let along = |by_number: &&dyn Potential| {
             let gradient = self.by_controls(chain, *by_number)?;
             Ok(-a.iter().zip(&gradient).map(|(a, g)| a.dot(*g)).sum::<f64>())
@@ -278,25 +274,18 @@ impl Sensitivity {
     /// A loss by the motion of nodes, with rotations in their material frames, and the a of `H a = (∂x/∂c)ᵀ ∂ℓ/∂x`. docs/theory.md (D2)
     fn adjoint(
         &self,
-        positions: &[DVec3],
-        rotations: &[DVec3],
+        by_nodes: &ShapeChange,
     ) -> Result<(NodeChanges, Vec<DVec3>), DerivativeError> {
+        let positions = self.one_per_node(&by_nodes.positions)?;
+        let none = vec![DVec3::ZERO; positions.len()];
+        let rotations = match &by_nodes.rotations {
+            empty if empty.is_empty() => &none,
+            given => self.one_per_node(given)?,
+        };
         let inside = self.shape.frames.iter().zip(rotations).map(|(r, g)| r.transpose() * *g);
         let by_nodes = NodeChanges::new(positions.iter().copied().zip(inside));
         let a = self.solve(&self.variation.by_node_changes(&by_nodes))?;
         Ok((by_nodes, a))
-    }
-
-    /// The derivatives of a loss by rotations of the nodes; none are `none`.
-    fn rotations_or<'a>(
-        &self,
-        by_nodes: &'a ShapeChange,
-        none: &'a [DVec3],
-    ) -> Result<&'a [DVec3], DerivativeError> {
-        match &by_nodes.rotations {
-            empty if empty.is_empty() => Ok(none),
-            given => self.one_per_node(given),
-        }
     }
 
     /// How a change of the parameters moves each node, to first order. docs/theory.md (D1)
