@@ -64,7 +64,10 @@ mod history;
 pub use accessories::{Accessory, AccessoryKind, accessories, accessory_meshes};
 pub use adopt::{Adoption, adopt};
 pub use contact::Pull;
-pub use equilibrium::{Effort, FrictionalRod, SettlingReport, settling_report};
+pub use equilibrium::{
+    Effort, FrictionalRod, HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity,
+    SettlingReport, settling_report,
+};
 pub use fibre::{Curl, Fibre, Handedness, WetLocks, Wetting};
 pub use guides::Guide;
 pub use hairstyle::{Crowded, Hairstyle, JointCertificate, WetLockSizes};

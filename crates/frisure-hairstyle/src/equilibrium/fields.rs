@@ -96,10 +96,20 @@ const HARDEST: f64 = 1e5;
 /// the stiffness k, with the moment M at its end, has the depth 2Mβ²/k there, β⁴ = k/4EI (Hetényi 1946, *Beams on elastic
 /// foundation*, ch. 3): κ √(EI/k). docs/theory.md, "Hair on the body".
 fn skin_stiffness(spec: &HairstyleSpec, guide: &Guide) -> f64 {
+    spec.contact.stiffness.max(skin_for_curl(guide))
+}
+
+/// Whether the skin beneath a guide has the stiffness of the description, not that which its curl needs.
+pub(super) fn own_skin(spec: &HairstyleSpec, guide: &Guide) -> bool {
+    spec.contact.stiffness >= skin_for_curl(guide)
+}
+
+/// The stiffness of skin (Pa) that a guide's own curl needs.
+fn skin_for_curl(guide: &Guide) -> f64 {
     let curvature = guide.rod.natural().mean(0.0, guide.rod.length()).truncate();
     let bending = guide.rod.stiffness().truncate();
     let needed = bending.min_element() * curvature.length_squared() / CURL_DEPTH.powi(2);
-    spec.contact.stiffness.max(needed.min(HARDEST))
+    needed.min(HARDEST)
 }
 
 /// Length (m) of combed hair that lies on the head, from the forehead's hairline to above the ears, and the most of a hair that

@@ -15,6 +15,7 @@ mod wisp;
 
 pub(crate) use fields::{combed_hold, held_up, holding};
 pub use friction_solver::FrictionalRod;
+pub use joint::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
 pub(crate) use lock::LockStart;
 pub use report::{SettlingReport, settling_report};
 pub(crate) use start::{Change, GuideStart};

@@ -1,5 +1,6 @@
 //! One guide among others that hold still.
 
+use frisure_rod::derivatives::{DerivativeError, Sensitivity};
 use frisure_rod::minimise::{
     Minimiser, Minimum, Newton, NewtonStep, Problem, SecondVariation, StoppingCriteria,
 };
@@ -8,12 +9,12 @@ use frisure_rod::{Chain, Equilibrium, Shape};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::fields::{along, body, body_samples, samples};
+use super::fields::{along, body, body_samples, layer, own_skin, samples};
 use super::friction_solver::Hold;
 use super::lock;
 use super::tether::{Tether, farthest, firmness};
 use crate::contact::{
-    BodyContact, ContactPairs, Density, Friction, FrictionGap, Layer, Pull, Samples, Strand,
+    BodyContact, CombedHold, ContactPairs, Friction, FrictionGap, Layer, Pull, Samples, Strand,
 };
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
@@ -319,6 +320,42 @@ impl<'a> Wisp<'a> {
         act(&Problem::new(&self.chain, &felt))
     }
 
+    /// The parts of the derivatives of the guide.
+    pub(super) fn sensitivity(&self, others: &dyn Field) -> Result<Sensitivity, DerivativeError> {
+        self.among(others, None, |problem| {
+            Sensitivity::among_others(problem, self.settled.shape.clone())
+        })
+    }
+
+    /// Derivative by the controls (N m) of the energy of the guide in a field, at each of `samples` points per element.
+    fn gradient_of(&self, field: &dyn Field, samples: u32) -> Vec<DVec3> {
+        let field = FieldPotential::new(field, samples);
+        let felt: [&dyn Potential; 1] = [&field];
+        let gradient = |felt: &[&dyn Potential]| {
+            Problem::with_load(&self.chain, felt, 0.0).gradient(&self.settled.shape)
+        };
+        let elastic = gradient(&[]);
+        gradient(&felt).into_iter().zip(elastic).map(|(both, elastic)| both - elastic).collect()
+    }
+
+    /// Derivative by the controls (N m) of the energy that the guide has of `others`.
+    pub(super) fn gradient_among(&self, others: &dyn Field) -> Vec<DVec3> {
+        self.gradient_of(others, self.resolution)
+    }
+
+    /// The same of its bed of hair, of a stiffness of 1 Pa.
+    pub(super) fn gradient_by_hair(&self) -> Vec<DVec3> {
+        let bed = BodyContact { hair: 1.0, skin: 0.0, hold: CombedHold::default(), ..self.body };
+        self.gradient_of(&bed, body_samples(self.guide, self.chain.len()))
+    }
+
+    /// The same of skin, by the stiffness (Pa) that the description gives it.
+    pub(super) fn gradient_by_skin(&self, spec: &HairstyleSpec) -> Vec<DVec3> {
+        let skin = if own_skin(spec, self.guide) { self.guide.firmness } else { 0.0 };
+        let skin = BodyContact { hair: 0.0, skin, hold: CombedHold::default(), ..self.body };
+        self.gradient_of(&skin, body_samples(self.guide, self.chain.len()))
+    }
+
     /// Energy (J) that the guide has of `others`.
     pub(super) fn energy_among(&self, others: &dyn Field) -> f64 {
         self.chain.energy(&self.settled.shape, &FieldPotential::new(others, self.resolution))
@@ -371,7 +408,8 @@ pub(super) fn wisps_on_bed<'a>(
     hold: Hold,
 ) -> Vec<Wisp<'a>> {
     let wisp = |(guide, alone): (&'a Guide, _)| {
-        Wisp::new(guide, alone, body(spec, head, guide, guide.layer), SPACING_OF_DENSITY)
+        let bed = layer(spec, guide);
+        Wisp::new(guide, alone, body(spec, head, guide, bed), SPACING_OF_DENSITY)
     };
     stuck(guides.iter().zip(alone).map(wisp).collect(), hold)
 }
@@ -417,11 +455,15 @@ fn locks(wisps: &[Wisp<'_>]) -> Vec<Option<Yielding>> {
     wisps.iter().map(|wisp| wisp.lock().cloned()).collect()
 }
 
-/// Guides in hair of a density as they are, each with its own part of what they share, certified to a relative gradient of
+/// Guides in what each feels of the others as they are, each with its own part of what they share, certified to a relative gradient of
 /// `tolerance` while the others hold still.
-pub(super) fn rest_in(wisps: &[Wisp<'_>], density: &Density, tolerance: f64) -> Rest {
+pub(super) fn rest_in<'a>(
+    wisps: &[Wisp<'_>],
+    around: impl Fn(usize) -> Box<dyn Field + 'a> + Sync,
+    tolerance: f64,
+) -> Rest {
     let guides = (wisps.par_iter().enumerate())
-        .map(|(i, wisp)| wisp.equilibrium(&density.around(i), tolerance))
+        .map(|(i, wisp)| wisp.equilibrium(&*around(i), tolerance))
         .collect();
     Rest { locks: locks(wisps), ..Rest::apart(guides) }
 }

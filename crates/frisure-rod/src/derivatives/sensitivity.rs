@@ -105,8 +105,34 @@ impl Sensitivity {
     /// [`DerivativeError`], if the shape is no minimum or does not come to rest, or if the elements are jointed and another
     /// potential has no form for their halves.
     pub fn new(problem: &Problem<'_>, shape: Shape) -> Result<Self, DerivativeError> {
-        let chain = problem.chain();
         let (shape, variation, gradient_norm) = polished(problem, shape)?;
+        Self::from_variation(problem, shape, variation, gradient_norm)
+    }
+
+    /// The parts of the derivatives of one of several rods at rest together, which touch each other: of all of them the controls change by what the
+    /// coupled equations say, which the caller solves; see [`Self::moments_of`] and [`Self::moments_of_change`]. The shape is taken as it is;
+    /// [`Self::vjp`] and [`Self::jvp`] are those while the others hold still.
+    ///
+    /// # Errors
+    /// [`DerivativeError::JointedElements`], if elements are jointed: a change of the strain of a half moves what is beyond it against the other rods
+    /// at once.
+    pub fn among_others(problem: &Problem<'_>, shape: Shape) -> Result<Self, DerivativeError> {
+        let variation = problem.second_variation(&shape, 1);
+        let gradient_norm = relative(problem, &variation);
+        let sensitivity = Self::from_variation(problem, shape, variation, gradient_norm)?;
+        if sensitivity.pieces.is_some() {
+            return Err(DerivativeError::JointedElements);
+        }
+        Ok(sensitivity)
+    }
+
+    fn from_variation(
+        problem: &Problem<'_>,
+        shape: Shape,
+        variation: SecondVariation,
+        gradient_norm: f64,
+    ) -> Result<Self, DerivativeError> {
+        let chain = problem.chain();
         let rod = chain.rod();
         let axis = |direction: DVec3| {
             let moment = Moment { direction, length: rod.length() };
@@ -184,10 +210,33 @@ impl Sensitivity {
         by_nodes: &ShapeChange,
     ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
         // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x.
-        let ShapeChange { positions, rotations } = by_nodes;
-        let (by_nodes, a) = self.adjoint(by_nodes)?;
+        let a = self.adjoint(by_nodes)?;
+        self.vjp_by_adjoint_with_halves(by_nodes, &a)
+    }
+
+    /// [`Self::vjp`] with the solution a (rad per unit of the loss) of the adjoint's equation, one vector for each element: for a rod among others that
+    /// of the coupled equations of all, whose right sides are [`Self::moments_of`]. docs/theory.md (D2), (D7)
+    ///
+    /// # Errors
+    /// [`DerivativeError::Nodes`] and [`DerivativeError::Elements`], if there is not one vector for each.
+    pub fn vjp_by_adjoint(
+        &self,
+        by_nodes: &ShapeChange,
+        adjoint: &[DVec3],
+    ) -> Result<ParameterGradient, DerivativeError> {
+        self.vjp_by_adjoint_with_halves(by_nodes, adjoint).map(|(gradient, _)| gradient)
+    }
+
+    fn vjp_by_adjoint_with_halves(
+        &self,
+        by_nodes: &ShapeChange,
+        a: &[DVec3],
+    ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
+        self.one_per_element(a)?;
         // 2. −aᵀ ∂g/∂p of each parameter. (D3), (D4)
-        let halves = self.pieces.as_ref().map(|pieces| pieces.by_strain(&by_nodes, &a));
+        let ShapeChange { positions, rotations } = by_nodes;
+        let by_nodes = self.in_frames(by_nodes)?;
+        let halves = self.pieces.as_ref().map(|pieces| pieces.by_strain(&by_nodes, a));
         let natural_strain: Vec<DVec3> = match &halves {
             None => a.iter().map(|a| self.stiffness * *a).collect(),
             Some(halves) => halves.iter().map(|[a, b]| *a + *b).collect(),
@@ -233,7 +282,7 @@ impl Sensitivity {
         by_nodes: &ShapeChange,
         by_numbers: &[&dyn Potential],
     ) -> Result<Vec<f64>, DerivativeError> {
-        let (_, a) = self.adjoint(by_nodes)?;
+        let a = self.adjoint(by_nodes)?;
         let along = |by_number: &&dyn Potential| {
             let gradient = self.by_controls(chain, *by_number)?;
             Ok(-a.iter().zip(&gradient).map(|(a, g)| a.dot(*g)).sum::<f64>())
@@ -252,10 +301,7 @@ impl Sensitivity {
     ) -> Result<ShapeChange, DerivativeError> {
         let mut right = self.by_controls(chain, by_number)?;
         right.iter_mut().for_each(|g| *g = -*g);
-        let nodes = self.variation.node_changes(&self.solve(&right)?);
-        let (positions, turns): (Vec<DVec3>, Vec<DVec3>) = nodes.iter().unzip();
-        let rotations = turns.iter().zip(&self.shape.frames).map(|(turn, frame)| *frame * *turn);
-        Ok(ShapeChange { positions, rotations: rotations.collect() })
+        Ok(self.moved(&ParameterChange::default(), &self.solve(&right)?, None))
     }
 
     /// The gradient of a potential by the controls at rest.
@@ -271,11 +317,22 @@ impl Sensitivity {
         Ok(gradient_of(&Problem::new(chain, &[]), potential, &self.shape))
     }
 
-    /// A loss by the motion of nodes, with rotations in their material frames, and the a of `H a = (∂x/∂c)ᵀ ∂ℓ/∂x`. docs/theory.md (D2)
-    fn adjoint(
-        &self,
-        by_nodes: &ShapeChange,
-    ) -> Result<(NodeChanges, Vec<DVec3>), DerivativeError> {
+    /// The a of `H a = (∂x/∂c)ᵀ ∂ℓ/∂x`. docs/theory.md (D2)
+    fn adjoint(&self, by_nodes: &ShapeChange) -> Result<Vec<DVec3>, DerivativeError> {
+        self.solve(&self.moments_of(by_nodes)?)
+    }
+
+    /// The derivative `(∂x/∂c)ᵀ ∂ℓ/∂x` of a loss by the controls (loss per rad), one vector for each element, from that by the nodes (loss per m and per
+    /// rad): the right side of the adjoint's equation. docs/theory.md (D2)
+    ///
+    /// # Errors
+    /// [`DerivativeError::Nodes`], if there is not one vector for each node.
+    pub fn moments_of(&self, by_nodes: &ShapeChange) -> Result<Vec<DVec3>, DerivativeError> {
+        Ok(self.variation.by_node_changes(&self.in_frames(by_nodes)?))
+    }
+
+    /// A loss by the motion of nodes, with rotations in their material frames.
+    fn in_frames(&self, by_nodes: &ShapeChange) -> Result<NodeChanges, DerivativeError> {
         let positions = self.one_per_node(&by_nodes.positions)?;
         let none = vec![DVec3::ZERO; positions.len()];
         let rotations = match &by_nodes.rotations {
@@ -283,9 +340,7 @@ impl Sensitivity {
             given => self.one_per_node(given)?,
         };
         let inside = self.shape.frames.iter().zip(rotations).map(|(r, g)| r.transpose() * *g);
-        let by_nodes = NodeChanges::new(positions.iter().copied().zip(inside));
-        let a = self.solve(&self.variation.by_node_changes(&by_nodes))?;
-        Ok((by_nodes, a))
+        Ok(NodeChanges::new(positions.iter().copied().zip(inside)))
     }
 
     /// How a change of the parameters moves each node, to first order. docs/theory.md (D1)
@@ -303,15 +358,53 @@ impl Sensitivity {
         change: &ParameterChange,
         halves: &[[DVec3; 2]],
     ) -> Result<ShapeChange, DerivativeError> {
+        // H δc = −∂g/∂p δp, and how that moves nodes.
+        let (right, by_halves) = self.change_with_halves(change, halves)?;
+        Ok(self.moved(change, &self.solve(&right)?, by_halves))
+    }
+
+    /// The moments −∂g/∂p δp (N m) of a change of the parameters, one vector for each element: the right side of the equation of the controls. For a rod
+    /// among others it is the rod's part of that of the coupled equations. docs/theory.md (D1), (D7)
+    ///
+    /// # Errors
+    /// As [`Self::jvp`].
+    pub fn moments_of_change(
+        &self,
+        change: &ParameterChange,
+    ) -> Result<Vec<DVec3>, DerivativeError> {
+        self.change_with_halves(change, &[]).map(|(right, _)| right)
+    }
+
+    /// How each node moves with a change of the parameters and of the controls (rad), which have one vector for each element: for a rod among others those
+    /// that solve the coupled equations. docs/theory.md (D1), (D7)
+    ///
+    /// # Errors
+    /// As [`Self::jvp`], and [`DerivativeError::Elements`] if there is not one vector for each element.
+    pub fn jvp_by_controls(
+        &self,
+        change: &ParameterChange,
+        controls: &[DVec3],
+    ) -> Result<ShapeChange, DerivativeError> {
+        self.one_per_element(controls)?;
+        let (_, by_halves) = self.change_with_halves(change, &[])?;
+        Ok(self.moved(change, controls, by_halves))
+    }
+
+    /// −∂g/∂p δp, and how a change of the strain of halves moves what is beyond them by itself.
+    fn change_with_halves(
+        &self,
+        change: &ParameterChange,
+        halves: &[[DVec3; 2]],
+    ) -> Result<(Vec<DVec3>, Option<NodeChanges>), DerivativeError> {
         let elements = self.bent.len();
         let strain = &change.natural_strain;
-        if !strain.is_empty() && strain.len() != elements {
-            return Err(DerivativeError::Elements { given: strain.len(), elements });
+        if !strain.is_empty() {
+            self.one_per_element(strain)?;
         }
         if change.length != 0.0 && !self.alone {
             return Err(DerivativeError::Length);
         }
-        // 1. −∂g/∂p δp of stiffness and load; a longer rod has more load. (D3), (D5)
+        // 1. Of stiffness and load; a longer rod has more load. (D3), (D5)
         let larger = change.length / self.length;
         let rotation = change.root_rotation;
         let load = change.load - rotation.cross(self.load) + self.load * (3.0 * larger);
@@ -342,22 +435,31 @@ impl Sensitivity {
                 Some(moved)
             }
         };
-        // 3. H δc = −∂g/∂p δp, and how that moves nodes.
-        let mut nodes: Vec<(DVec3, DVec3)> =
-            self.variation.node_changes(&self.solve(&right)?).iter().collect();
+        Ok((right, by_halves))
+    }
+
+    /// How nodes move with the controls, with the root and with the length.
+    fn moved(
+        &self,
+        change: &ParameterChange,
+        controls: &[DVec3],
+        by_halves: Option<NodeChanges>,
+    ) -> ShapeChange {
+        let mut nodes: Vec<(DVec3, DVec3)> = self.variation.node_changes(controls).iter().collect();
         if let Some(moved) = by_halves {
             for (node, (position, turn)) in nodes.iter_mut().zip(moved.iter()) {
                 *node = (node.0 + position, node.1 + turn);
             }
         }
-        let root = self.shape.positions[0];
+        let (root, larger) = (self.shape.positions[0], change.length / self.length);
+        let rotation = change.root_rotation;
         let rigid = |x: DVec3| change.root_position + rotation.cross(x) + x * larger;
         let positions = nodes.iter().zip(&self.shape.positions);
         let rotations = nodes.iter().zip(&self.shape.frames);
-        Ok(ShapeChange {
+        ShapeChange {
             positions: positions.map(|((moved, _), x)| *moved + rigid(*x - root)).collect(),
             rotations: rotations.map(|((_, turn), frame)| rotation + *frame * *turn).collect(),
-        })
+        }
     }
 
     /// The derivative of the energy (J) at rest by all parameters: at rest the controls do not count (envelope theorem).
@@ -404,6 +506,15 @@ impl Sensitivity {
         }
     }
 
+    fn one_per_element(&self, given: &[DVec3]) -> Result<(), DerivativeError> {
+        let elements = self.bent.len();
+        if given.len() == elements {
+            Ok(())
+        } else {
+            Err(DerivativeError::Elements { given: given.len(), elements })
+        }
+    }
+
     fn solve(&self, right: &[DVec3]) -> Result<Vec<DVec3>, DerivativeError> {
         let factor = self.variation.factor(0.0).ok_or(DerivativeError::NotAMinimum)?;
         Ok(factor.solve(right))
@@ -419,25 +530,27 @@ fn gradient_of(problem: &Problem<'_>, potential: &dyn Potential, shape: &Shape) 
     both.gradient().iter().zip(elastic.gradient()).map(|(both, elastic)| *both - *elastic).collect()
 }
 
+/// Largest derivative of the energy by any control, relative to the moment scale.
+fn relative(problem: &Problem<'_>, variation: &SecondVariation) -> f64 {
+    let largest = variation.gradient().iter().map(|g| g.length()).fold(0.0, f64::max);
+    largest / problem.chain().rod().moment_scale()
+}
+
 /// The shape at rest to rounding, with its second variation and relative gradient.
 fn polished(
     problem: &Problem<'_>,
     mut shape: Shape,
 ) -> Result<(Shape, SecondVariation, f64), DerivativeError> {
     let chain = problem.chain();
-    let scale = chain.rod().moment_scale();
-    let size = |variation: &SecondVariation| {
-        variation.gradient().iter().map(|g| g.length()).fold(0.0, f64::max) / scale
-    };
     let mut variation = problem.second_variation(&shape, 1);
-    let mut gradient = size(&variation);
+    let mut gradient = relative(problem, &variation);
     for _ in 0..MOST_POLISHES {
         let factor = variation.factor(0.0).ok_or(DerivativeError::NotAMinimum)?;
         let step = factor.solve(variation.gradient());
         let controls = shape.controls.iter().zip(&step).map(|(c, x)| *c - *x).collect();
         let next = chain.shape(controls);
         let there = problem.second_variation(&next, 1);
-        let found = size(&there);
+        let found = relative(problem, &there);
         // Newton's method squares a small gradient: one that is not halved is rounding.
         if !(found < 0.5 * gradient) {
             break;

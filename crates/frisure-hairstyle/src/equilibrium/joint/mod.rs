@@ -9,7 +9,10 @@ mod certificate;
 mod hessian;
 mod newton;
 mod others;
+mod sensitivity;
 mod state;
+
+pub use self::sensitivity::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
 
 use frisure_progress::{Cancelled, Progress, StageCounter};
 use frisure_rod::potential::Yielding;

@@ -1,7 +1,7 @@
 //! What the guides of a head make of each other, while all come to rest together.
 
 use frisure_rod::potential::Field;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::hessian::Coupling;
@@ -13,6 +13,21 @@ pub(super) enum Others {
     Pairs(Box<ContactPairs>),
     /// Hair is pressed where it is denser than it packs.
     Density(Box<Density>),
+    /// Each guide lies on the bed of hair alone.
+    Apart,
+}
+
+/// What guides that lie apart feel of each other.
+struct Nothing;
+
+impl Field for Nothing {
+    fn energy(&self, _: f64, _: DVec3) -> f64 {
+        0.0
+    }
+
+    fn derivatives(&self, _: f64, _: DVec3) -> Option<(DVec3, DMat3)> {
+        None
+    }
 }
 
 impl Others {
@@ -21,6 +36,7 @@ impl Others {
         match self {
             Self::Pairs(pairs) => Box::new(pairs.around(guide)),
             Self::Density(density) => Box::new(density.around(guide)),
+            Self::Apart => Box::new(Nothing),
         }
     }
 
@@ -29,6 +45,7 @@ impl Others {
         match self {
             Self::Pairs(pairs) => Box::new(pairs.shared(guide)),
             Self::Density(density) => Box::new(density.around(guide)),
+            Self::Apart => Box::new(Nothing),
         }
     }
 
@@ -42,6 +59,7 @@ impl Others {
                 points.iter().enumerate().for_each(|(i, points)| density.place(i, points));
                 density.measure();
             }
+            Self::Apart => {}
         }
     }
 
@@ -53,6 +71,7 @@ impl Others {
                 density.update_neighbours(margins);
                 density.measure();
             }
+            Self::Apart => {}
         }
     }
 
@@ -60,7 +79,7 @@ impl Others {
     pub(super) fn pairs(&self) -> Option<&ContactPairs> {
         match self {
             Self::Pairs(pairs) => Some(pairs),
-            Self::Density(_) => None,
+            Self::Density(_) | Self::Apart => None,
         }
     }
 
@@ -68,7 +87,7 @@ impl Others {
     pub(super) fn pairs_mut(&mut self) -> Option<&mut ContactPairs> {
         match self {
             Self::Pairs(pairs) => Some(pairs),
-            Self::Density(_) => None,
+            Self::Density(_) | Self::Apart => None,
         }
     }
 
@@ -84,6 +103,7 @@ impl Others {
                 Coupling::Pairs((0..guides).into_par_iter().map(|i| pairs.contacts(i)).collect())
             }
             Self::Density(density) => Coupling::Density(density.variation()),
+            Self::Apart => Coupling::Pairs(vec![Vec::new(); guides]),
         }
     }
 }

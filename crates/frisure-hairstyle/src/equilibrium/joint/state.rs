@@ -1,6 +1,7 @@
 //! Where all guides of a head are, and what they feel there.
 
 use frisure_rod::Equilibrium;
+use frisure_rod::derivatives::{DerivativeError, Sensitivity};
 use frisure_rod::potential::Yielding;
 use rayon::prelude::*;
 
@@ -52,14 +53,20 @@ impl<'a> HeadState<'a> {
         alone: &'a [Equilibrium],
         hold: Hold,
     ) -> Self {
-        let (wisps, others) = if spec.contact.hair == HairContact::Density {
-            let wisps = wisps_on_bed(spec, head, guides, alone, hold);
-            let strands = wisps.iter().map(Wisp::strand).collect();
-            let density = Density::new(strands, spec.contact.hair_stiffness);
-            (wisps, Others::Density(Box::new(density)))
-        } else {
-            let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
-            (wisps, Others::Pairs(Box::new(pairs)))
+        let (wisps, others) = match spec.contact.hair {
+            HairContact::Density => {
+                let wisps = wisps_on_bed(spec, head, guides, alone, hold);
+                let strands = wisps.iter().map(Wisp::strand).collect();
+                let density = Density::new(strands, spec.contact.hair_stiffness);
+                (wisps, Others::Density(Box::new(density)))
+            }
+            HairContact::Wisps => {
+                let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
+                (wisps, Others::Pairs(Box::new(pairs)))
+            }
+            HairContact::None | HairContact::Layers => {
+                (wisps_on_bed(spec, head, guides, alone, hold), Others::Apart)
+            }
         };
         let count = wisps.len();
         let mut state = Self {
@@ -194,6 +201,31 @@ impl<'a> HeadState<'a> {
         JointHessian { guides, coupling: self.others.coupling(self.wisps.len()) }
     }
 
+    /// The parts of the derivatives of each guide.
+    ///
+    /// # Errors
+    /// Which guide has none, and why.
+    pub(super) fn sensitivities(&self) -> Result<Vec<Sensitivity>, (usize, DerivativeError)> {
+        let of = |(i, wisp): (usize, &Wisp<'_>)| {
+            wisp.sensitivity(&*self.others.around(i)).map_err(|error| (i, error))
+        };
+        self.wisps.par_iter().enumerate().map(of).collect()
+    }
+
+    /// Derivative of the energy by every control (N m), by the stiffness of hair and by that of skin (Pa): ∂g/∂p. The stiffness of skin that a tight
+    /// curl needs does not change with that of the description.
+    pub(super) fn gradients_by_stiffness(&self, spec: &HairstyleSpec) -> [Controls; 2] {
+        let of_hair = |(i, wisp): (usize, &Wisp<'_>)| {
+            let mut gradient = wisp.gradient_by_hair();
+            let others = wisp.gradient_among(&*self.others.around(i));
+            gradient.iter_mut().zip(others).for_each(|(g, of)| *g += of / self.stiffness);
+            gradient
+        };
+        let of_skin = |wisp: &Wisp<'_>| wisp.gradient_by_skin(spec);
+        let hair = self.wisps.par_iter().enumerate().map(of_hair).collect();
+        [hair, self.wisps.par_iter().map(of_skin).collect()]
+    }
+
     /// Largest derivative by any control, relative to the moment scale EI/L + ρSgL² of its guide.
     pub(super) fn relative(&self, gradient: &Controls) -> f64 {
         let of_guide = |(wisp, g): (&Wisp<'_>, &Vec<glam::DVec3>)| {
@@ -206,7 +238,9 @@ impl<'a> HeadState<'a> {
     pub(super) fn rest(&self, tolerance: f64) -> Rest {
         match &self.others {
             Others::Pairs(pairs) => rest_among(&self.wisps, pairs, tolerance),
-            Others::Density(density) => rest_in(&self.wisps, density, tolerance),
+            Others::Density(_) | Others::Apart => {
+                rest_in(&self.wisps, |guide| self.others.around(guide), tolerance)
+            }
         }
     }
 }
