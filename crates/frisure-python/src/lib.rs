@@ -29,6 +29,7 @@ mod command;
 mod errors;
 mod fit;
 mod hairstyle;
+mod head_derivatives;
 mod photo;
 mod picture;
 mod rods;
@@ -47,6 +48,7 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<array::Memory>()?;
     module.add_class::<scene::SceneText>()?;
     module.add_class::<hairstyle::Prediction>()?;
+    module.add_class::<head_derivatives::HeadAtRest>()?;
     module.add_class::<strands::StrandData>()?;
     module.add_class::<rods::RodsAtRest>()?;
     module.add_function(wrap_pyfunction!(picture::render, module)?)?;

@@ -25,6 +25,7 @@ from frisure import rods
 from frisure._batch import batch
 from frisure._frisure import __version__
 from frisure._frisure import after_fork as _after_fork
+from frisure.derivatives import HeadDerivatives
 from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
 from frisure.fits import Fits, fit
 from frisure.hairstyle import Hairstyle, predict
@@ -39,6 +40,7 @@ __all__ = [
     "Fits",
     "FrisureError",
     "Hairstyle",
+    "HeadDerivatives",
     "Measured",
     "Scene",
     "SceneError",

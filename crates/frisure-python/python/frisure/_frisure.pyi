@@ -83,6 +83,37 @@ class Prediction:
     def save_report(self, path: str | os.PathLike[str], progress: _Progress | None) -> None: ...
 
 @final
+class HeadAtRest:
+    @staticmethod
+    def of(prediction: Prediction, progress: _Progress | None) -> HeadAtRest: ...
+    def points(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
+    def certificate(self) -> tuple[float, float, float, bool]: ...
+    def vjp(
+        self,
+        by_points: NDArray[np.float64],
+        by_frames: NDArray[np.float64] | None,
+        progress: _Progress | None,
+    ) -> tuple[
+        NDArray[np.float64],
+        list[NDArray[np.float64]],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        list[float],
+        list[float],
+    ]: ...
+    def jvp(
+        self,
+        changes: tuple[
+            NDArray[np.float64],
+            NDArray[np.float64],
+            NDArray[np.float64],
+            tuple[float, float],
+            tuple[float, float, float],
+        ],
+        progress: _Progress | None,
+    ) -> list[NDArray[np.float64]]: ...
+
+@final
 class StrandData:
     def points(self) -> Memory: ...
     def radii(self) -> Memory: ...

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from frisure._check import real, whole
 from frisure._frisure import Prediction, render, render_png, save_picture
+from frisure.derivatives import HeadDerivatives
 from frisure.errors import ArgumentError
 from frisure.scene import Scene, SceneSource
 from frisure.strands import Strands
@@ -246,6 +247,14 @@ class Hairstyle:
     def release(self, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
         """The hair without what holds it."""
         return self.step("release", progress=progress, **keys)
+
+    def derivatives(self, *, progress: Progress | None = None) -> HeadDerivatives:
+        """The head as it rests, with exact derivatives of all guides together by curl, stiffness, density, gravity and contact.
+
+        The head is brought to rest to rounding first. Wisps that touch need `equilibrium.method = "continuation"`, and curls
+        `equilibrium.element = "helix"`; hair with friction has no derivatives. A `SceneError` or an `ArgumentError` says what is missing.
+        """
+        return HeadDerivatives(self._prediction, progress)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Hairstyle, (self._scene, None)

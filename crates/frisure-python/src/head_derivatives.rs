@@ -1,0 +1,220 @@
+//! Derivatives of a head at rest, as arrays.
+
+use std::sync::Arc;
+
+use frisure::hairstyle::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
+use frisure::progress::Cancelled;
+use frisure::rod::Rod;
+use frisure::rod::derivatives::{ParameterChange, Regularity, ShapeChange};
+use frisure_engine::Error;
+use frisure_engine::memory::{self, Work};
+use glam::DVec3;
+use numpy::ndarray::ArrayView2;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::hairstyle::Prediction;
+use crate::work;
+
+/// A head at rest, kept for its derivatives.
+#[pyclass(frozen, module = "frisure._frisure")]
+pub(crate) struct HeadAtRest(Arc<Kept>);
+
+struct Kept {
+    sensitivity: HeadSensitivity,
+    rods: Vec<Rod>,
+    /// Nodes of each guide.
+    nodes: Vec<usize>,
+}
+
+/// The derivatives of G guides of E elements in all: by the natural strain of each element (E, 3); by a strain that is the same all along a guide, and by gravity
+/// as a vector (G, 3); by moduli and density (G, 3): Young's, shear, density; by section (G, 2): diameter, axis ratio; by the stiffness of hair and of skin; by a
+/// rotation of the head.
+type Gradient<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    [Bound<'py, PyArray2<f64>>; 2],
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    [f64; 2],
+    [f64; 3],
+);
+
+/// The changes of G guides: of natural strain and of gravity (G, 3), of moduli and density (G, 3), of the stiffness of hair and of skin, a rotation.
+type Changes<'py> = (
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray2<'py, f64>,
+    [f64; 2],
+    [f64; 3],
+);
+
+#[pymethods]
+impl HeadAtRest {
+    /// Brings the head of a prediction to rest, and prepares its derivatives.
+    #[staticmethod]
+    #[pyo3(signature = (prediction, progress))]
+    fn of(
+        py: Python<'_>,
+        prediction: &Prediction,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let hair = prediction.hair.clone();
+        let kept = work::run(py, progress, move |p| {
+            let (hairstyle, head) = (&hair.loaded.hairstyle, &hair.loaded.head);
+            memory::check(hairstyle.spec(), Work::Guides)?;
+            let sensitivity = HeadSensitivity::new(hairstyle, head, p).map_err(told)?;
+            let rods = hairstyle.guides().iter().map(|guide| guide.rod.clone()).collect();
+            let nodes = sensitivity.shapes().map(|shape| shape.positions.len()).collect();
+            Ok(Kept { sensitivity, rods, nodes })
+        })?;
+        Ok(Self(Arc::new(kept)))
+    }
+
+    /// The nodes of all guides (N, 3), and how many each has (G,).
+    fn points<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>)> {
+        let points = self.0.sensitivity.shapes().flat_map(|shape| &shape.positions);
+        let counts = self.0.nodes.iter().map(|&count| count as i64).collect();
+        Ok((rows(py, points)?, PyArray1::from_vec(py, counts)))
+    }
+
+    /// The lowest eigenvalue, its residual, the relative gradient, and whether the derivatives are regular.
+    fn certificate(&self) -> (f64, f64, f64, bool) {
+        let head = &self.0.sensitivity;
+        let (value, error) = head.lowest_eigenvalue();
+        (value, error, head.gradient_norm(), head.regularity() == Regularity::Regular)
+    }
+
+    /// The derivatives of a loss from those by the nodes, (N, 3), and by their frames.
+    #[pyo3(signature = (by_points, by_frames, progress))]
+    fn vjp<'py>(
+        &self,
+        py: Python<'py>,
+        by_points: PyReadonlyArray2<'py, f64>,
+        by_frames: Option<PyReadonlyArray2<'py, f64>>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Gradient<'py>> {
+        let kept = Arc::clone(&self.0);
+        let positions = kept.by_guides(&vectors(by_points.as_array(), kept.nodes.iter().sum())?);
+        let rotations = match by_frames {
+            Some(by) => kept.by_guides(&vectors(by.as_array(), kept.nodes.iter().sum())?),
+            None => vec![Vec::new(); kept.nodes.len()],
+        };
+        let by_nodes: Vec<ShapeChange> = (positions.into_iter().zip(rotations))
+            .map(|(positions, rotations)| ShapeChange { positions, rotations })
+            .collect();
+        let of = kept.clone();
+        let gradient =
+            work::run(py, progress, move |_| of.sensitivity.vjp(&by_nodes).map_err(told))?;
+        kept.arrays(py, &gradient)
+    }
+
+    /// How the nodes move along a change, and how their frames turn, (N, 3).
+    #[pyo3(signature = (changes, progress))]
+    fn jvp<'py>(
+        &self,
+        py: Python<'py>,
+        changes: Changes<'py>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let kept = Arc::clone(&self.0);
+        let change = kept.change(&changes)?;
+        let moved = work::run(py, progress, move |_| kept.sensitivity.jvp(&change).map_err(told))?;
+        let positions = rows(py, moved.iter().flat_map(|change| &change.positions))?;
+        Ok([positions, rows(py, moved.iter().flat_map(|change| &change.rotations))?])
+    }
+}
+
+impl Kept {
+    /// The vectors of all nodes, guide by guide.
+    fn by_guides(&self, all: &[DVec3]) -> Vec<Vec<DVec3>> {
+        let mut rest = all;
+        let of = |&count: &usize| {
+            let (own, others) = rest.split_at(count);
+            rest = others;
+            own.to_vec()
+        };
+        self.nodes.iter().map(of).collect()
+    }
+
+    fn change(&self, changes: &Changes<'_>) -> PyResult<HeadChange> {
+        let (strain, gravity, material, [hair_stiffness, skin_stiffness], rotation) = changes;
+        let [strain, gravity, material] =
+            [strain, gravity, material].map(|given| vectors(given.as_array(), self.rods.len()));
+        let (strain, gravity, material) = (strain?, gravity?, material?);
+        let guide = |(i, rod): (usize, &Rod)| {
+            let (k, of, section) = (rod.stiffness(), rod.spec().material, rod.spec().section);
+            let [youngs_modulus, shear_modulus, density] = material[i].to_array();
+            let bending = youngs_modulus / of.youngs_modulus();
+            // ρ S g: of a change of the density and of gravity.
+            let load = rod.spec().load.gravity * density + gravity[i] * of.density();
+            ParameterChange {
+                natural_strain: vec![strain[i]; self.nodes[i] - 1],
+                stiffness: k * DVec3::new(bending, bending, shear_modulus / of.shear_modulus()),
+                load: load * section.area(),
+                ..ParameterChange::default()
+            }
+        };
+        Ok(HeadChange {
+            guides: self.rods.iter().enumerate().map(guide).collect(),
+            hair_stiffness: *hair_stiffness,
+            skin_stiffness: *skin_stiffness,
+            rotation: DVec3::from_array(*rotation),
+        })
+    }
+
+    fn arrays<'py>(&self, py: Python<'py>, gradient: &HeadGradient) -> PyResult<Gradient<'py>> {
+        let (mut uniform, mut gravity) = (Vec::new(), Vec::new());
+        let (mut material, mut section) = (Vec::new(), Vec::new());
+        for (rod, by) in self.rods.iter().zip(&gradient.guides) {
+            uniform.push(by.uniform_strain());
+            gravity.push(by.load * rod.mass());
+            let [density, youngs_modulus, shear_modulus] = by.material(rod);
+            material.push(DVec3::new(youngs_modulus, shear_modulus, density));
+            section.extend(by.diameter(rod));
+        }
+        let strains = gradient.guides.iter().flat_map(|by| &by.natural_strain);
+        Ok((
+            rows(py, strains)?,
+            [rows(py, &uniform)?, rows(py, &gravity)?],
+            rows(py, &material)?,
+            PyArray1::from_vec(py, section).reshape([self.rods.len(), 2])?,
+            [gradient.hair_stiffness, gradient.skin_stiffness],
+            gradient.rotation.to_array(),
+        ))
+    }
+}
+
+/// The error of a head without derivatives: what the scene asks for, or what the numerics cannot do.
+fn told(error: HeadDerivativeError) -> Error {
+    match error {
+        HeadDerivativeError::Cancelled => Cancelled.into(),
+        HeadDerivativeError::Friction
+        | HeadDerivativeError::JointedElements { .. }
+        | HeadDerivativeError::NotAtRest { .. } => Error::because(&error, ""),
+        _ => Error::failed(&error, ""),
+    }
+}
+
+/// The rows of an array of `count` vectors.
+fn vectors(view: ArrayView2<'_, f64>, count: usize) -> PyResult<Vec<DVec3>> {
+    if view.shape() != [count, 3] {
+        let shape = view.shape();
+        let message = format!("the shape is {shape:?}; it must be [{count}, 3]");
+        return Err(PyValueError::new_err(message));
+    }
+    Ok(view.rows().into_iter().map(|row| DVec3::new(row[0], row[1], row[2])).collect())
+}
+
+/// An array with one vector in each row.
+fn rows<'py, 'a>(
+    py: Python<'py>,
+    vectors: impl IntoIterator<Item = &'a DVec3>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let numbers: Vec<f64> = vectors.into_iter().flat_map(DVec3::to_array).collect();
+    let count = numbers.len() / 3;
+    PyArray1::from_vec(py, numbers).reshape([count, 3])
+}
