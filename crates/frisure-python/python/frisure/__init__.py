@@ -9,7 +9,8 @@
 >>> picture = short.render(300, 360)          # (360, 300, 3), uint8
 
 - `predict` makes a `Hairstyle` from a `Scene`: a file, a text in TOML, or a dict.
-- A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, and one method for each step of styling.
+- A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, one method for each step of styling, and
+  exact `derivatives` of all guides together.
 - `frisure.rods` solves many single fibres at once; `frisure.fit` finds the numbers of measured ones, with error bars;
   `frisure.measure` those of a lock in a photo.
 - `frisure.batch` computes many heads that vary, as a table of Arrow.

@@ -12,6 +12,7 @@ _Progress = Callable[[str, float], object]
 
 __all__ = [
     "Memory",
+    "HeadAtRest",
     "Prediction",
     "RodsAtRest",
     "SceneText",
