@@ -40,6 +40,9 @@ type Gradient<'py> = (
     [f64; 3],
 );
 
+/// The nodes of all guides (N, 3), and how many each has (G,).
+type Nodes<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>);
+
 /// The changes of G guides: of natural strain and of gravity (G, 3), of moduli and density (G, 3), of the stiffness of hair and of skin, a rotation.
 type Changes<'py> = (
     PyReadonlyArray2<'py, f64>,
@@ -72,10 +75,7 @@ impl HeadAtRest {
     }
 
     /// The nodes of all guides (N, 3), and how many each has (G,).
-    fn points<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>)> {
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Nodes<'py>> {
         let points = self.0.sensitivity.shapes().flat_map(|shape| &shape.positions);
         let counts = self.0.nodes.iter().map(|&count| count as i64).collect();
         Ok((rows(py, points)?, PyArray1::from_vec(py, counts)))
