@@ -330,12 +330,7 @@ impl<'a> Wisp<'a> {
     /// Derivative by the controls (N m) of the energy of the guide in a field, at each of `samples` points per element.
     fn gradient_of(&self, field: &dyn Field, samples: u32) -> Vec<DVec3> {
         let field = FieldPotential::new(field, samples);
-        let felt: [&dyn Potential; 1] = [&field];
-        let gradient = |felt: &[&dyn Potential]| {
-            Problem::with_load(&self.chain, felt, 0.0).gradient(&self.settled.shape)
-        };
-        let elastic = gradient(&[]);
-        gradient(&felt).into_iter().zip(elastic).map(|(both, elastic)| both - elastic).collect()
+        Problem::new(&self.chain, &[]).gradient_of(&field, &self.settled.shape)
     }
 
     /// Derivative by the controls (N m) of the energy that the guide has of `others`.

@@ -136,7 +136,7 @@ impl Sensitivity {
         let rod = chain.rod();
         let axis = |direction: DVec3| {
             let moment = Moment { direction, length: rod.length() };
-            let gradient = gradient_of(problem, &moment, &shape);
+            let gradient = problem.gradient_of(&moment, &shape);
             (gradient, chain.energy(&shape, &moment))
         };
         let [(x, mx), (y, my), (z, mz)] = [DVec3::X, DVec3::Y, DVec3::Z].map(axis);
@@ -314,7 +314,7 @@ impl Sensitivity {
         if chain.len() != elements {
             return Err(DerivativeError::Elements { given: chain.len(), elements });
         }
-        Ok(gradient_of(&Problem::new(chain, &[]), potential, &self.shape))
+        Ok(Problem::new(chain, &[]).gradient_of(potential, &self.shape))
     }
 
     /// The a of `H a = (∂x/∂c)ᵀ ∂ℓ/∂x`. docs/theory.md (D2)
@@ -519,15 +519,6 @@ impl Sensitivity {
         let factor = self.variation.factor(0.0).ok_or(DerivativeError::NotAMinimum)?;
         Ok(factor.solve(right))
     }
-}
-
-/// Gradient of a potential by the controls of a shape.
-fn gradient_of(problem: &Problem<'_>, potential: &dyn Potential, shape: &Shape) -> Vec<DVec3> {
-    let weightless = Problem::with_load(problem.chain(), &[], 0.0);
-    let elastic = weightless.second_variation(shape, 1);
-    let with = [potential];
-    let both = Problem::with_load(problem.chain(), &with, 0.0).second_variation(shape, 1);
-    both.gradient().iter().zip(elastic.gradient()).map(|(both, elastic)| *both - *elastic).collect()
 }
 
 /// Largest derivative of the energy by any control, relative to the moment scale.

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::linearise::Linearisation;
 use super::problem::Problem;
 use crate::chain::Shape;
+use crate::potential::Potential;
 
 impl Problem<'_> {
     /// Derivatives of the energy by each element's control (N m).
@@ -15,6 +16,16 @@ impl Problem<'_> {
         } else {
             Linearisation::<false>::new(self, shape).gradient
         }
+    }
+
+    /// Derivatives by each element's control (N m) of the energy that a shape has of one more potential.
+    #[must_use]
+    pub fn gradient_of(&self, potential: &dyn Potential, shape: &Shape) -> Vec<DVec3> {
+        // A sweep knows sums only: with the potential, less without.
+        let elastic = Problem::with_load(self.chain, &[], 0.0).gradient(shape);
+        let felt = [potential];
+        let both = Problem::with_load(self.chain, &felt, 0.0).gradient(shape);
+        both.into_iter().zip(elastic).map(|(both, elastic)| both - elastic).collect()
     }
 
     /// Largest derivative of the energy by any element's control, relative to

@@ -9,7 +9,6 @@ use frisure_rod::derivatives::{
     DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
 use glam::DVec3;
-use rayon::prelude::*;
 use std::fmt;
 use thiserror::Error;
 
@@ -59,6 +58,14 @@ pub enum HeadDerivativeError {
     /// The second variation of the head is not positive definite.
     #[error("the head is not at a minimum: its second variation is not positive")]
     NotAMinimum,
+    /// Conjugate gradients do not converge.
+    #[error(
+        "the equations of the derivatives are not solved: the residual is {residual} of the right side; are all numbers finite?"
+    )]
+    NotSolved {
+        /// What is left of the right side, in the norm of the preconditioner.
+        residual: f64,
+    },
     /// There is not one entry for each guide.
     #[error("there are {given} entries; the head has {guides} guides")]
     Guides {
@@ -321,7 +328,7 @@ impl HeadSensitivity {
         add(&mut right, -change.skin_stiffness, by_skin);
         // 2. H δc = −∂g/∂p δp, and how that moves nodes.
         let controls = self.solve(&right)?;
-        (self.guides.par_iter().zip(&turned).zip(&controls).enumerate())
+        (self.guides.iter().zip(&turned).zip(&controls).enumerate())
             .map(|(i, ((guide, change), x))| guide.jvp_by_controls(change, x).map_err(in_guide(i)))
             .collect()
     }
@@ -337,12 +344,15 @@ impl HeadSensitivity {
         let first = dot(&residual, &z);
         let mut norm = first;
         for _ in 0..MOST_CG {
+            if norm.is_nan() {
+                break;
+            }
             if norm <= RESIDUAL * RESIDUAL * first {
                 return Ok(x);
             }
             let product = self.hessian.apply(&way).moments;
             let bend = dot(&way, &product);
-            if !(bend > 0.0) {
+            if bend <= 0.0 {
                 return Err(HeadDerivativeError::NotAMinimum);
             }
             add(&mut x, norm / bend, &way);
@@ -352,7 +362,7 @@ impl HeadSensitivity {
             add_scaled(&mut way, next / norm, &z);
             norm = next;
         }
-        Err(HeadDerivativeError::NotAMinimum)
+        Err(HeadDerivativeError::NotSolved { residual: (norm / first).sqrt() })
     }
 
     fn one_per_guide(&self, given: usize) -> Result<(), HeadDerivativeError> {

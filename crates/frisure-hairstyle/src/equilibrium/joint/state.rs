@@ -204,12 +204,14 @@ impl<'a> HeadState<'a> {
     /// The parts of the derivatives of each guide.
     ///
     /// # Errors
-    /// Which guide has none, and why.
+    /// The first guide that has none, and why.
     pub(super) fn sensitivities(&self) -> Result<Vec<Sensitivity>, (usize, DerivativeError)> {
         let of = |(i, wisp): (usize, &Wisp<'_>)| {
             wisp.sensitivity(&*self.others.around(i)).map_err(|error| (i, error))
         };
-        self.wisps.par_iter().enumerate().map(of).collect()
+        // The first guide's error, whichever thread is first.
+        let all: Vec<_> = self.wisps.par_iter().enumerate().map(of).collect();
+        all.into_iter().collect()
     }
 
     /// Derivative of the energy by every control (N m), by the stiffness of hair and by that of skin (Pa): ∂g/∂p. The stiffness of skin that a tight
