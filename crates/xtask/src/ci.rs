@@ -40,7 +40,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             let other = scope.spawn(|| other_programs(&gate));
             let first = tests(&gate);
             let other = other.join().map_err(|_| anyhow!("the steps beside the tests panic"))?;
-            first.and(other)
+            first.and(other).map_err(|error| gate.failure().unwrap_or(error))
         })?;
     }
     gate.report();
@@ -52,7 +52,7 @@ const CLIPPY: &str = "clippy --workspace --all-targets --all-features --locked -
 /// The steps that the tests need, and those with what the tests have built.
 fn tests(gate: &Gate) -> Result<()> {
     gate.step("page", || page::build(false))?;
-    gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
+    gate.step("the README's test command", || run_tests(&readme_command("cargo test ")?))?;
     gate.step("examples", examples)
 }
 
@@ -99,6 +99,8 @@ struct Gate {
     times: Mutex<Vec<(&'static str, Duration)>>,
     /// Whether a step has failed: no other begins then.
     failed: AtomicBool,
+    /// What the failed steps said, with the end of what they printed: other steps may print much after them.
+    failures: Mutex<Vec<String>>,
 }
 
 impl Gate {
@@ -108,12 +110,19 @@ impl Gate {
         let start = Instant::now();
         run().with_context(|| format!("step \"{name}\" fails")).inspect_err(|error| {
             self.failed.store(true, Ordering::Relaxed);
+            self.failures.lock().unwrap_or_else(PoisonError::into_inner).push(format!("{error:#}"));
             say(&format!("{error:#}"));
         })?;
         let time = start.elapsed();
         say(&format!("{:.1} s for the step \"{name}\"", time.as_secs_f64()));
         self.times.lock().unwrap_or_else(PoisonError::into_inner).push((name, time));
         Ok(())
+    }
+
+    /// What has failed, if anything has.
+    fn failure(&self) -> Option<anyhow::Error> {
+        let failures = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
+        (!failures.is_empty()).then(|| anyhow!(failures.join("\n")))
     }
 
     fn report(&self) {
@@ -136,14 +145,41 @@ fn shell(line: &str) -> Result<()> {
     Ok(())
 }
 
-/// The same; says afterwards what the line printed.
+/// Runs a line of tests in the workspace; its error has the lines of what was printed that tell which failed.
+fn run_tests(line: &str) -> Result<()> {
+    let log = root().join("target/tests.log");
+    let logged = format!("set -o pipefail; {{ {line}; }} 2>&1 | tee '{}'", log.display());
+    shell(&logged).map_err(|error| {
+        let printed = fs::read_to_string(&log).unwrap_or_default();
+        let tells = |line: &&str| {
+            ["FAILED", "panicked at", "error"].iter().any(|word| line.contains(word))
+                && !line.ends_with("... ok")
+        };
+        let lines: Vec<&str> = printed.lines().filter(tells).collect();
+        anyhow!("{error}:\n{}", end_of(&lines.join("\n")))
+    })
+}
+
+/// The same as [`shell`]; says afterwards what the line printed.
 fn shell_beside(line: &str) -> Result<()> {
     let Output { status, stdout, stderr } =
         beside("bash").args(["-c", line]).current_dir(root()).stdin(Stdio::null()).output()?;
     let (errors, output) = (String::from_utf8_lossy(&stderr), String::from_utf8_lossy(&stdout));
     say(&format!("{line}\n{errors}{output}"));
-    ensure!(status.success(), "`{line}` ends with {status}");
+    ensure!(
+        status.success(),
+        "`{line}` ends with {status}:\n{}\n{}",
+        end_of(&errors),
+        end_of(&output)
+    );
     Ok(())
+}
+
+/// The last lines of what a program printed: its error is among them.
+fn end_of(printed: &str) -> String {
+    const MOST: usize = 20;
+    let lines: Vec<&str> = printed.trim_end().lines().collect();
+    lines[lines.len().saturating_sub(MOST)..].join("\n")
 }
 
 /// Checks the spelling where `typos` is installed; `.ci/run` installs it.

@@ -8,6 +8,9 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+/// What the browser says of an expression whose page is left before it is evaluated.
+const NAVIGATED: &str = "Inspected target navigated or closed";
+
 /// For one answer of the browser.
 const PATIENCE: Duration = Duration::from_secs(120);
 
@@ -246,6 +249,10 @@ impl Chromium {
                 panic!("no answer to {method}; the browser's log: {}", log.unwrap_or_default())
             });
             if answer["id"] == json!(id) {
+                // The page was left while the question was on its way: it has no answer, and is asked again.
+                if answer["error"]["message"] == json!(NAVIGATED) {
+                    return Value::Null;
+                }
                 assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
                 return answer["result"].clone();
             }
