@@ -156,6 +156,12 @@ impl Run {
         &self.batch
     }
 
+    /// The names of the columns of every part.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        parquet::column_names(&self.batch)
+    }
+
     /// The parts of the shard.
     pub fn parts(&self) -> impl Iterator<Item = Part> {
         let shard = self.shard;

@@ -56,8 +56,8 @@ Exit status:
   0    done
   1    a file could not be written, or something else failed
   2    the command line, the scene or the head is wrong
-  3    computed and written, but some equilibrium did not converge, or a verdict fails
-  4    computed and written, but some equilibrium misses the requested accuracy
+  3    computed and written, but some equilibrium did not converge or is unstable, or a verdict fails
+  4    computed and written, but some equilibrium misses the requested accuracy or may be unstable
   5    the photo does not tell: `frisure measure` says why
   130  interrupted; no file is left half-written";
 
@@ -244,7 +244,7 @@ pub(crate) struct Style {
     #[arg(long, group = "what", conflicts_with_all = ["steps", "remove", "output"])]
     pub(crate) list: bool,
 
-    /// Write the scene here instead of back to where it was read; `-` for standard output.
+    /// Write the scene here (.toml) instead of back to where it was read; `-` for standard output.
     #[arg(long, short, value_name = "SCENE")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -378,7 +378,7 @@ impl Axes {
 
     /// The choice of a frame.
     pub(crate) fn choice(self) -> FrameChoice {
-        FrameChoice { metres: self.unit, up: self.up }
+        FrameChoice { metres: self.unit, up: self.up, ..FrameChoice::default() }
     }
 }
 

@@ -1,14 +1,31 @@
 //! Standard output and standard error.
 
 use std::io::{self, ErrorKind, Write};
+use std::path::Path;
 
+use frisure::scene::escaped;
 use frisure_engine::Error;
 use serde::Serialize;
 
 use crate::diagnostics::render;
 use crate::interrupt;
 
-/// Writes text to standard output. A closed pipe (`frisure presets | head -1`) is no error.
+/// Writes a text for a person to standard output: nothing in it commands the terminal, whatever names the user has given.
+pub(crate) fn say(text: &str) -> Result<(), Error> {
+    print(&plain(text))
+}
+
+/// The name of a file as a line of text has it.
+pub(crate) fn shown(path: &Path) -> String {
+    escaped(&path.display().to_string(), |_| false)
+}
+
+/// Lines of text, without other control characters.
+fn plain(text: &str) -> String {
+    escaped(text, |c| c == '\n')
+}
+
+/// Writes a document, every byte of it, to standard output. A closed pipe (`frisure presets | head -1`) is no error.
 pub(crate) fn print(text: &str) -> Result<(), Error> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -37,7 +54,7 @@ pub(crate) fn progress_line(text: &str) {
 
 /// Writes to standard error what a person should know, though nothing failed.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "note: {text}");
+    let _ = writeln!(io::stderr().lock(), "note: {}", plain(text));
 }
 
 /// Writes why a command failed to standard error, if that is open.
@@ -46,7 +63,7 @@ pub(crate) fn show_error(error: &Error) {
     let mut err = anstream::stderr().lock();
     let _ = match error {
         Error::Cancelled(_) => match interrupt::resume() {
-            Some(how) => writeln!(err, "interrupted: {how}"),
+            Some(how) => writeln!(err, "interrupted: {}", plain(&how)),
             None => writeln!(err, "interrupted"),
         },
         error => writeln!(err, "{}", render(error)),

@@ -13,10 +13,10 @@ use frisure_engine::{Error, message};
 pub(crate) enum ExitStatus {
     /// The result is complete.
     Success,
-    /// Some equilibrium of the result did not converge.
+    /// Some equilibrium of the result did not converge, or is unstable.
     NotConverged,
-    /// Every equilibrium converged, but some misses the requested accuracy.
-    AccuracyMissed,
+    /// Every equilibrium converged, but some misses the requested accuracy, or may be unstable.
+    Uncertain,
     /// What was given does not tell the result: the reason is printed.
     Abstained,
     /// Some criterion of the report fails.
@@ -29,7 +29,7 @@ impl From<ExitStatus> for u8 {
         match status {
             ExitStatus::Success => 0,
             ExitStatus::NotConverged | ExitStatus::CriterionFailed => 3,
-            ExitStatus::AccuracyMissed => 4,
+            ExitStatus::Uncertain => 4,
             ExitStatus::Abstained => 5,
         }
     }

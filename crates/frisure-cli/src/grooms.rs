@@ -11,7 +11,7 @@ use frisure::strands::Strands;
 use frisure_engine::{Error, memory};
 
 use crate::args::{Content, Writing};
-use crate::interrupt;
+use crate::{console, interrupt};
 
 /// The hint for an output whose format prescribes a unit and axes.
 const FRAME_HINT: &str = "write it in a run of its own, without `--unit` and `--up`";
@@ -38,7 +38,7 @@ fn choice(path: &Path, format: Format, writing: Writing) -> Result<FrameChoice, 
     let Some(program) = writing.program else { return Ok(given) };
     let hint = "write other files in a run of their own, without `--for`";
     let usual = program.frame(path, format).map_err(|e| Error::because(&e, hint))?;
-    Ok(FrameChoice { metres: given.metres.or(usual.metres), up: given.up.or(usual.up) })
+    Ok(FrameChoice { metres: given.metres.or(usual.metres), up: given.up.or(usual.up), ..given })
 }
 
 /// The same for files that hold the hair at several times.
@@ -68,7 +68,7 @@ pub(crate) fn write(
     let mut lines = Vec::new();
     fitted(groom, paths, writing, |path, groom, note| {
         write_file(path, writing, |choice| write_groom(path, groom, choice))?;
-        lines.push(format!("{}{note}", path.display()));
+        lines.push(format!("{}{note}", console::shown(path)));
         Ok(())
     })?;
     Ok(lines)
@@ -156,7 +156,11 @@ impl<'a> MotionFiles<'a> {
         for (path, (motion, note)) in self.paths.iter().zip(self.motions) {
             interrupt::check()?;
             write_file(path, self.writing, |choice| write_motion(path, &motion, choice))?;
-            lines.push(format!("{} ({} time samples){note}", path.display(), motion.times().len()));
+            lines.push(format!(
+                "{} ({} time samples){note}",
+                console::shown(path),
+                motion.times().len()
+            ));
         }
         Ok(lines)
     }

@@ -42,6 +42,20 @@ pub(crate) fn writing<T>(write: impl FnOnce() -> T) -> T {
     write()
 }
 
+/// Makes a write beyond the largest file that the user allows (`ulimit -f`) an error like that of a full disk: the system
+/// also sends a signal, which ends the program before it can tell, with a hidden file left. Call it before threads start,
+/// which inherit it.
+pub(crate) fn let_writes_fail() {
+    #[cfg(unix)]
+    {
+        use nix::sys::signal::{SigSet, Signal};
+        let mut blocked = SigSet::empty();
+        blocked.add(Signal::SIGXFSZ);
+        // Where it cannot be blocked, all is as it would be without.
+        let _ = blocked.thread_block();
+    }
+}
+
 /// Sets what to print after Ctrl-C: how to resume the work at hand.
 pub(crate) fn set_resume(how: Option<String>) {
     *lock(&RESUME) = how;

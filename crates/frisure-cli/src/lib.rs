@@ -21,6 +21,7 @@ use clap::Parser;
 
 use args::{Arguments, Command, MAX_THREADS};
 use diagnostics::{ExitStatus, exit_code};
+use frisure::scene::quoted;
 use frisure_engine::Error;
 
 pub use diagnostics::plain;
@@ -32,6 +33,7 @@ const USAGE: u8 = 2;
 ///
 /// Prints to standard output and standard error, and takes over Ctrl-C: call it once in a process, which ends then.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    interrupt::let_writes_fail();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -51,15 +53,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// The environment's numbers of threads, the first of which that is a number `rayon` takes where it gets none.
+/// The environment's numbers of threads, the first of which that is set `rayon` takes where it gets none.
 const THREADS: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
 
 /// Starts the threads that compute: as many as asked for on the command line, or by the environment.
 fn start_threads(asked: Option<usize>) -> Result<(), Error> {
-    let number = |name| Some((name, std::env::var(name).ok()?.parse().ok()?));
-    let by_environment = || THREADS.into_iter().find_map(number);
-    let asked = asked.map(|threads| ("--threads", threads));
-    let Some((by, threads)) = asked.or_else(by_environment) else { return Ok(()) };
+    let asked = match asked {
+        Some(threads) => Some(("--threads", threads)),
+        None => THREADS.into_iter().map(threads_by).find_map(Result::transpose).transpose()?,
+    };
+    let Some((by, threads)) = asked else { return Ok(()) };
     // Each thread takes memory and time: the system would be busy with a million of them for ever.
     if threads > MAX_THREADS {
         let hint = format!("set it to at most {MAX_THREADS}, or leave it out");
@@ -67,6 +70,19 @@ fn start_threads(asked: Option<usize>) -> Result<(), Error> {
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build_global().map_err(|e| Error::failed(&e, "ask for fewer threads by `--threads`"))
+}
+
+/// The number of threads that a variable of the environment asks for, if it is set.
+fn threads_by(name: &'static str) -> Result<Option<(&'static str, usize)>, Error> {
+    let set = std::env::var_os(name).filter(|value| !value.is_empty());
+    let Some(value) = set else { return Ok(None) };
+    let number = value.to_str().and_then(|value| value.trim().parse().ok());
+    let number = number.ok_or_else(|| {
+        let problem = format!("`{name}` is \"{}\"", quoted(&value.to_string_lossy()));
+        let allowed = format!("it must be a whole number of threads, at most {MAX_THREADS}");
+        Error::invalid(format!("{problem}; {allowed}"), "set it so, or leave it out")
+    })?;
+    Ok(Some((name, number)))
 }
 
 fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {

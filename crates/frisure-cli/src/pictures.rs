@@ -152,7 +152,7 @@ pub(crate) fn previews(
     subject.previews(&views.frames(), views.first(), &options, progress, &mut |index, image| {
         interrupt::check()?;
         interrupt::writing(|| picture::write(&paths[index], image, output))?;
-        lines.push(paths[index].display().to_string());
+        lines.push(console::shown(&paths[index]));
         Ok(())
     })?;
     Ok(lines)
@@ -162,7 +162,7 @@ pub(crate) fn previews(
 fn summary(picture: &FinalPicture<'_>) -> String {
     let FinalPicture { accumulator, path, resumed_paths: before, .. } = picture;
     let (paths, noise) = (accumulator.mean_samples(), accumulator.noise());
-    let mut line = format!("{}: {paths:.0} paths per pixel", path.display());
+    let mut line = format!("{}: {paths:.0} paths per pixel", console::shown(path));
     if *before > 0.0 {
         line += &format!(", {before:.0} of them from before");
     }

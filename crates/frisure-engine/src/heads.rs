@@ -4,9 +4,9 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use frisure::files::{Files, Stamp};
 use frisure::formats::head::{self, HeadMesh};
-use frisure::hairstyle::head::{Head, HeadError, ScalpSource};
+use frisure::hairstyle::head::{Head, HeadError, ScalpSource, Stance};
 use frisure::scene::{HeadSource, Scene, SceneError};
-use glam::{DMat3, DVec3, EulerRot};
+use glam::{DMat3, DQuat, DVec3, EulerRot};
 
 use crate::error::message;
 use crate::inputs::{head_files, head_mesh, head_note};
@@ -90,11 +90,12 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
         };
         scene.error_at("head.mesh", e.to_string(), hint)
     })?;
-    let lies = match head.turn_to_upright() {
-        None => None,
-        Some(upright) if file.turn.is_none() => return Err(lies(scene, upright)),
+    let lies = match head.stance() {
+        Stance::Lies(upright) if file.turn.is_none() => return Err(lies(scene, upright)),
         // Who turns a head has looked at it, so it is taken; but it is said.
-        Some(_) => Some(LIES.to_owned()),
+        Stance::Lies(_) => Some(LIES.to_owned()),
+        Stance::Leans(upright) if file.turn.is_none() => Some(leans(upright)),
+        Stance::Leans(_) | Stance::Upright => None,
     };
     let notes: Vec<String> = [note, lies, holes(&head)].into_iter().flatten().collect();
     let note = (!notes.is_empty()).then(|| notes.join("\n"));
@@ -103,6 +104,24 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
 
 /// The warning about a head that was turned and does not stand upright.
 const LIES: &str = "warning: turned by `head.turn`, the head does not stand upright with its face to the front: hair may grow where no scalp is";
+
+/// The warning about a head that leans, with the turn that stands it up.
+fn leans(upright: DMat3) -> String {
+    let [x, y, z] = turn_of(upright);
+    let (_, angle) = DQuat::from_mat3(&upright).to_axis_angle();
+    let angle = angle.to_degrees();
+    format!(
+        "warning: the head leans by about {angle:.0} degrees from how an average one is held: hair may grow where no scalp is, such as down \
+         the neck. `turn = [{x}, {y}, {z}]` in `[head]` stands it up; `turn = [0, 0, 0]` takes it as it is"
+    )
+}
+
+/// A rotation as `head.turn` has it (degrees).
+fn turn_of(rotation: DMat3) -> [f64; 3] {
+    let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
+    // No negative zero.
+    [x, y, z].map(|angle| angle.to_degrees().round() + 0.0)
+}
 
 /// The warning about a head with holes where hair grows.
 fn holes(head: &Head) -> Option<String> {
@@ -132,7 +151,7 @@ pub(crate) fn groom_head(
     let HeadSource::Mesh(file) = source else { return built_in(scene, source, "groom.head_model") };
     let mesh = head::read(file, files).map_err(|e| scene.error_at(KEY, message(&e), ""))?;
     let head = of_mesh(mesh).map_err(|e| scene.error_at(KEY, e.to_string(), ""))?;
-    if head.turn_to_upright().is_some() {
+    if let Stance::Lies(_) = head.stance() {
         let problem = "the head of the groom does not stand upright with its face to the front";
         let hint = "export groom and mesh with the head upright";
         return Err(scene.error_at(KEY, problem, hint));
@@ -153,8 +172,7 @@ fn of_mesh(mesh: HeadMesh) -> Result<Head, HeadError> {
 
 /// The error about a head that does not stand upright, with the rotation that it needs.
 fn lies(scene: &Scene, upright: DMat3) -> SceneError {
-    let (z, y, x) = upright.to_euler(EulerRot::ZYX);
-    let [x, y, z] = [x, y, z].map(|angle| angle.to_degrees().round() + 0.0);
+    let [x, y, z] = turn_of(upright);
     let DVec3 { x: left, y: back, z: up } = upright * DVec3::NEG_Z;
     let problem = "the head does not stand upright with its face to the front: hair would grow where no scalp is";
     let hint = format!(

@@ -2,18 +2,19 @@
 
 use frisure::files::Files;
 use frisure::files::frame::UpAxis;
+use frisure::formats::groom::Format;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
     Adoption, Hairstyle, HairstyleSpec, PredictError, PredictOptions, adopt, predict, transfer,
 };
 use frisure::progress::Progress;
-use frisure::scene::{Placement, Scene, SceneError};
-use frisure::strands::Strands;
+use frisure::scene::{GroomFile, Placement, Scene, SceneError};
+use frisure::strands::{Strand, Strands};
 use glam::DVec3;
 
 use crate::error::Error;
 use crate::heads::groom_head;
-use crate::inputs::{GROOM_FRAME, scene_groom};
+use crate::inputs::{GROOM_FRAME, read_groom, scene_groom};
 use crate::placement::{guess, lines, placed, words};
 
 /// The hairstyle before the first step: predicted from `[hair]`, or adopted from the groom of the scene.
@@ -27,25 +28,27 @@ pub(crate) fn initial_hairstyle(
     files: &Files,
     progress: &dyn Progress,
 ) -> Result<(Hairstyle, Option<Adoption>), Error> {
-    let Some(groom) = scene_groom(scene, files)? else {
+    let Some(file) = &scene.groom else {
         let predicted = predict(spec, head, PredictOptions::default(), progress)
             .map_err(|e| Error::of_prediction(&e, scene))?;
         return Ok((predicted, None));
-    };
-    let most = scene.groom.as_ref().map_or(usize::MAX, |file| file.guides);
-    let placement = scene.groom.as_ref().map(|file| file.placement).unwrap_or_default();
-    let hairs = placed(&groom.hairs, &placement);
-    let guides = match groom.guides.is_empty() {
-        true => evenly(&hairs, most),
-        false => placed(&evenly(&groom.guides, most), &placement),
     };
     let wrong = |e| match e {
         PredictError::Quantity(e) => scene.error_at("groom.file", e.to_string(), "").into(),
         e => Error::of_prediction(&e, scene),
     };
-    let made_on = scene.groom.as_ref().and_then(|file| file.head.as_ref());
+    let made_on = file.head.as_ref();
     let made_on = made_on.map(|source| groom_head(scene, source, files)).transpose()?;
     let from = made_on.as_deref().unwrap_or(head);
+    let groom = match scene_groom(scene, files) {
+        Ok(groom) => groom.expect("the scene has one"),
+        Err(error) => return Err(with_place(error, scene, file, from, files).into()),
+    };
+    let hairs = placed(&groom.hairs, &file.placement);
+    let guides = match groom.guides.is_empty() {
+        true => evenly(&hairs, file.guides),
+        false => placed(&evenly(&groom.guides, file.guides), &file.placement),
+    };
     check_roots(scene, from, &guides)?;
     let (adopted, adoption) = adopt(spec, from, &guides, &hairs, progress).map_err(wrong)?;
     let hairstyle = match &made_on {
@@ -118,16 +121,55 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
         && !placed
         && let Some(placement) = guess(head, &roots)
     {
-        let metres = scene.groom.as_ref().and_then(|file| file.frame.metres);
-        let hint = format!(
-            "{}; it would lie on the head with these lines in `[groom]` of a scene:\n{}",
-            words(&placement, metres),
-            lines(&placement)
-        );
+        let hint = place_hint(scene.groom.as_ref(), &placement);
         return Err(scene.error_at("groom.file", problem, hint));
     }
     let hint = format!("{GROOM_FRAME}, or name the head that the groom was made on");
     Err(scene.error_at("groom.file", problem, hint))
+}
+
+/// What a guess takes the groom for, and the lines that place it.
+fn place_hint(file: Option<&GroomFile>, placement: &Placement) -> String {
+    let metres = file.and_then(|file| {
+        let format = Format::of(&file.path).ok().filter(|format| !format.states_unit());
+        file.frame.metres.or(format.map(|format| format.frame().metres))
+    });
+    format!(
+        "{}; it would lie on the head with these lines in `[groom]` of a scene:\n{}",
+        words(placement, metres),
+        lines(placement)
+    )
+}
+
+/// Factors with which a groom is read again whose size no hair has. Chosen: steps of less than the ratio of the largest
+/// size of hair to its smallest, so that one of them makes a head of hair of it.
+const READ_AGAIN: [f64; 6] = [1e-2, 1e2, 1e-4, 1e4, 1e-6, 1e6];
+
+/// The error of a groom that cannot be read; where another scale mends it, with the place on the head that it then has.
+fn with_place(
+    error: SceneError,
+    scene: &Scene,
+    file: &GroomFile,
+    head: &Head,
+    files: &Files,
+) -> SceneError {
+    let is_of_size = || read_groom(file, 1.0, files).is_err_and(|e| e.may_be_of_unit());
+    if file.placement != Placement::default() || !is_of_size() {
+        return error;
+    }
+    let again = |&factor: &f64| Some((read_groom(file, factor, files).ok()?, factor));
+    let place = READ_AGAIN.iter().filter_map(again).find_map(|(groom, factor)| {
+        let of = if groom.guides.is_empty() { &groom.hairs } else { &groom.guides };
+        let root = |strand: Strand<'_>| strand.points[0].as_dvec3() / factor;
+        let roots: Vec<DVec3> = evenly(of, file.guides).iter().map(root).collect();
+        guess(head, &roots)
+    });
+    match (place, error.diagnostic()) {
+        (Some(place), Some(found)) => {
+            scene.error_at("groom.file", found.message(), place_hint(Some(file), &place))
+        }
+        _ => error,
+    }
 }
 
 /// A number with at most four decimals, or as a fraction.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use frisure::files::Files;
+use frisure::files::frame::FrameChoice;
 use frisure::formats::environment;
 use frisure::formats::groom::{self, Format, Groom, GroomError};
 use frisure::formats::head::{self, HeadFile, HeadFileError, HeadMesh, ScalpSource};
@@ -10,6 +11,7 @@ use frisure::look::EnvironmentMap;
 use frisure::scene::{GroomFile, HeadSource, Scene, SceneError};
 
 use crate::error::message;
+use crate::memory;
 
 /// The files that a scene names, beside itself.
 #[must_use]
@@ -76,25 +78,31 @@ pub(crate) fn head_note(file: &HeadFile, mesh: &HeadMesh) -> Option<String> {
 /// How a user says in which unit and axes a groom is.
 pub(crate) const GROOM_FRAME: &str = "set `unit` and `up` of `[groom]` in a scene, or `--from-unit` and `--from-up` of `frisure transfer`";
 
-/// The groom that the scene names, if it names one.
+/// The groom that the scene names, if it names one, with the scale that the scene gives it.
 ///
 /// # Errors
 /// [`SceneError`] at the key that names what cannot be used.
 pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneError> {
-    let Some(GroomFile { path, frame, .. }) = &scene.groom else { return Ok(None) };
-    let wrong = |e: GroomError| {
+    let Some(file) = &scene.groom else { return Ok(None) };
+    memory::check_groom(&file.path)
+        .map_err(|e| scene.error_at("groom.file", e.to_string(), e.hint()))?;
+    let groom = read_groom(file, file.placement.scale, files).map_err(|e| {
         let hint = if e.may_be_of_unit() { GROOM_FRAME } else { "" };
         scene.error_at("groom.file", message(&e), hint)
-    };
-    let format = Format::of(path).map_err(wrong)?;
-    let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
-    let bytes = bytes.map_err(|e| wrong(e.into()))?;
-    let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
+    })?;
     if groom.strands().is_empty() {
-        let problem = format!("`{}` has no strands", path.display());
+        let problem = format!("`{}` has no strands", file.path.display());
         return Err(scene.error_at("groom.file", problem, ""));
     }
     Ok(Some(groom))
+}
+
+/// The groom in a file in its unit and axes, all lengths times `scale`; neither turned nor moved.
+pub(crate) fn read_groom(file: &GroomFile, scale: f64, files: &Files) -> Result<Groom, GroomError> {
+    let format = Format::of(&file.path)?;
+    let bytes = files.read_bytes(&file.path, groom::MAX_SIZE, "a groom")?;
+    // A size that hair can have is asked of the groom as it will lie on the head: with the scale of the scene.
+    groom::decode(format, &bytes, &file.path, FrameChoice { scale, ..file.frame })
 }
 
 /// The environment map that the scene names, if it names one.
@@ -104,7 +112,9 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
 pub fn environment_map(scene: &Scene, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
     let Some(path) = &scene.environment else { return Ok(None) };
     let wrong = |problem, hint| scene.error_at("light.environment", problem, hint);
-    let read = environment::read(path, files).map_err(|e| wrong(message(&e), e.hint()))?;
+    let size = std::fs::metadata(path).map_or(0, |about| about.len());
+    let most = memory::room(memory::ENVIRONMENT_PIXEL, size as f64);
+    let read = environment::read(path, files, most).map_err(|e| wrong(message(&e), e.hint()))?;
     let map = EnvironmentMap::new(read.width, read.height, read.pixels);
     map.map(Some).map_err(|e| wrong(e.to_string(), ""))
 }

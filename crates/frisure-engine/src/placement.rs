@@ -5,23 +5,7 @@ use frisure::scene::Placement;
 use frisure::strands::Strands;
 use glam::{DMat3, DVec3, Vec3};
 use std::f64::consts::FRAC_PI_2;
-
-/// Factors that are tried: one, between units, and between units and inches or feet.
-const SCALES: [f64; 13] = [
-    1.0,
-    0.001,
-    0.01,
-    0.0254,
-    0.1,
-    0.3048,
-    2.54,
-    1.0 / 2.54,
-    10.0,
-    1.0 / 0.3048,
-    1.0 / 0.0254,
-    100.0,
-    1000.0,
-];
+use std::ops::RangeInclusive;
 
 /// Units that a guess names, and their metres.
 const UNITS: [(&str, f64); 6] = [
@@ -52,8 +36,26 @@ const ON_SCALP: f64 = 0.7;
 /// Distance (m) from a point of the scalp at which a root is on it. Chosen: a triangle of a coarse head.
 const SCALP_REACH: f64 = 0.015;
 
-/// The strands at their places on the head.
+/// Part of the miss of a unit to which another scale must bring it to be proposed instead. Chosen: on a head of another
+/// form than its own, a groom in a unit misses about as much at any scale.
+const OTHER_SCALE: f64 = 0.3;
+
+/// Part by which a scale may differ from that of a unit and be the same. Chosen: roots are that far from the skin.
+const SAME_SCALE: f64 = 0.02;
+
+/// Significant digits of a scale that is proposed. Chosen: the place of a groom 100 m away is then right within a
+/// tenth of a millimetre.
+const DIGITS: usize = 6;
+
+/// Scales that a scene may ask for.
+const SAID: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// Largest displacement (m) that a scene may ask for.
+const FARTHEST: f64 = 1000.0;
+
+/// The strands, which have their scale, at their places on the head.
 pub(crate) fn placed(strands: &Strands, placement: &Placement) -> Strands {
+    let placement = &Placement { scale: 1.0, ..*placement };
     if *placement == Placement::default() {
         return strands.clone();
     }
@@ -61,8 +63,7 @@ pub(crate) fn placed(strands: &Strands, placement: &Placement) -> Strands {
     for strand in strands.iter() {
         let place = |p: &Vec3| placement.position(p.as_dvec3()).as_vec3();
         let points: Vec<Vec3> = strand.points.iter().map(place).collect();
-        let radii: Vec<f32> = strand.radii.iter().map(|r| r * placement.scale as f32).collect();
-        out.push(&points, &radii);
+        out.push(&points, strand.radii);
     }
     for attribute in strands.attributes() {
         out.set_attribute(attribute.clone()).expect("as many strands and points as before");
@@ -70,8 +71,8 @@ pub(crate) fn placed(strands: &Strands, placement: &Placement) -> Strands {
     out
 }
 
-/// A placement that brings roots (m) onto the scalp, if there is one: the same unit wherever that fits, and turns by
-/// quarters.
+/// A placement that brings roots (m) onto the scalp, if there is one: the same unit wherever that fits, then another
+/// unit, then any scale; and turns by quarters.
 pub(crate) fn guess(head: &Head, roots: &[DVec3]) -> Option<Placement> {
     let stride = roots.len().div_ceil(MOST_ROOTS).max(1);
     let roots: Vec<DVec3> = roots.iter().step_by(stride).copied().collect();
@@ -88,21 +89,57 @@ pub(crate) fn guess(head: &Head, roots: &[DVec3]) -> Option<Placement> {
     }
     let size = extent(&roots) / extent(&scalp);
     let fits = |scale: &f64| (SIZES[0]..=SIZES[1]).contains(&(scale * size));
-    let mut best: Option<(f64, Placement)> = None;
-    for scale in SCALES.into_iter().filter(fits) {
-        for turn in quarters() {
-            let start = Placement { scale, turn, shift: DVec3::ZERO };
-            let Some((miss, placement)) = moved(head, &scalp, &roots, start) else { continue };
+    let starts = |scales: &[f64]| -> Vec<Placement> {
+        let turned =
+            |&scale| quarters().map(move |turn| Placement { scale, turn, shift: DVec3::ZERO });
+        scales.iter().flat_map(turned).collect()
+    };
+    let nearest = |starts: &mut dyn Iterator<Item = Placement>| {
+        let mut best: Option<(f64, Placement)> = None;
+        for (miss, placement) in starts.filter_map(|start| moved(head, &scalp, &roots, start)) {
             // A later guess has to be clearly nearer: the first ones have fewer lines.
             if best.is_none_or(|(least, _)| miss < 0.9 * least) {
                 best = Some((miss, placement));
             }
         }
-        if best.is_some() {
-            break;
-        }
+        best
+    };
+    // No scale at all where all roots are one point.
+    let own = Some(rounded(size.recip())).filter(|scale| scale.is_finite());
+    let sized = |start: Placement| {
+        let scale = scaled(head, &scalp, &roots, start)?;
+        fits(&scale).then_some(Placement { scale, shift: DVec3::ZERO, ..start })
+    };
+    if fits(&1.0)
+        && let Some((_, same)) = nearest(&mut starts(&[1.0]).into_iter())
+    {
+        return Some(same);
     }
-    best.map(|(_, placement)| placement)
+    let units: Vec<f64> = unit_scales().into_iter().filter(fits).collect();
+    let Some((miss, unit)) = nearest(&mut starts(&units).into_iter()) else {
+        let found = nearest(&mut starts(own.as_slice()).into_iter().filter_map(sized));
+        return found.map(|(_, placement)| placement);
+    };
+    let other = nearest(&mut sized(unit).into_iter());
+    let is_other = |(less, other): &(f64, Placement)| {
+        *less < OTHER_SCALE * miss && (other.scale / unit.scale - 1.0).abs() > SAME_SCALE
+    };
+    let other = other.filter(is_other);
+    Some(other.map_or(unit, |(_, placement)| placement))
+}
+
+/// Factors from one unit to another.
+fn unit_scales() -> Vec<f64> {
+    let pairs = UNITS.iter().flat_map(|(_, a)| UNITS.iter().map(move |(_, b)| rounded(a / b)));
+    let mut scales: Vec<f64> = pairs.collect();
+    scales.sort_by(f64::total_cmp);
+    scales.dedup();
+    scales
+}
+
+/// A number with as many digits as a scale is proposed with.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x)
 }
 
 /// The 24 rotations that turn axes into axes, as turns (rad) about x, y and z, the fewest first: a turn about x or y brings
@@ -156,8 +193,45 @@ fn moved(
     let reach = SCALP_REACH * SCALP_REACH;
     let on_scalp = |p: &DVec3| scalp.iter().any(|q| q.distance_squared(*p) < reach);
     let share = placed().filter(on_scalp).count() as f64 / roots.len() as f64;
-    let near = median < NEAR && share > ON_SCALP;
+    let can_be_said = SAID.contains(&start.scale) && shift.abs().max_element() < FARTHEST;
+    let near = can_be_said && median < NEAR && share > ON_SCALP;
     near.then_some((median + NEAR * (1.0 - share), Placement { shift, ..start }))
+}
+
+/// The scale that brings turned roots nearest to the skin, with the displacement that is best for it; none if the search
+/// finds none.
+fn scaled(head: &Head, scalp: &[DVec3], roots: &[DVec3], start: Placement) -> Option<f64> {
+    let turned: Vec<DVec3> = roots.iter().map(|&p| start.position(p)).collect();
+    let (from, to) = (mean(&turned), mean(scalp));
+    let field = head.signed_distance();
+    // Scale and place are told from each other best about the centre.
+    let (mut shift, mut factor) = (DVec3::ZERO, 1.0);
+    for _ in 0..STEPS {
+        let (mut matrix, mut vector, mut mixed) = (DMat3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        let (mut square, mut slope) = (0.0, 0.0);
+        for p in &turned {
+            let arm = *p - from;
+            let (d, n) = field.value_gradient(to + factor * arm + shift);
+            let along = n.dot(arm);
+            matrix += DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+            vector += n * d;
+            mixed += n * along;
+            square += along * along;
+            slope += along * d;
+        }
+        let inverse =
+            (matrix + DMat3::from_diagonal(DVec3::splat(1e-3 * roots.len() as f64))).inverse();
+        // The scale by elimination of the displacement.
+        let pivot = square - mixed.dot(inverse * mixed);
+        let change = -(slope - mixed.dot(inverse * vector)) / pivot;
+        if !change.is_finite() {
+            return None;
+        }
+        let change = change.clamp(-0.2 * factor, 0.2 * factor);
+        shift -= inverse * (vector + mixed * change);
+        factor += change;
+    }
+    Some(rounded(start.scale * factor))
 }
 
 /// What a guess takes the groom for: `the groom looks as if it were in inches, turned and moved`. A unit has a name where
@@ -170,8 +244,8 @@ pub(crate) fn words(placement: &Placement, metres: Option<f64>) -> String {
         let unit = UNITS.iter().find(|(_, unit)| is_unit(*unit));
         found.push(match unit {
             Some((name, _)) => format!("in {name}"),
-            None if *scale > 1.0 => format!("{} times too small", number(*scale, 4)),
-            None => format!("{} times too large", number(scale.recip(), 4)),
+            None if *scale > 1.0 => format!("{} times too small", digits(*scale, 4)),
+            None => format!("{} times too large", digits(scale.recip(), 4)),
         });
     }
     if *turn != DVec3::ZERO {
@@ -190,7 +264,7 @@ pub(crate) fn lines(placement: &Placement) -> String {
     let Placement { scale, turn, shift } = placement;
     let mut lines = Vec::new();
     if *scale != 1.0 {
-        lines.push(format!("scale = {}", number(*scale, 6)));
+        lines.push(format!("scale = {}", digits(*scale, DIGITS)));
     }
     if *turn != DVec3::ZERO {
         let [x, y, z] = turn.to_array().map(|angle| number(angle.to_degrees(), 1));
@@ -199,6 +273,12 @@ pub(crate) fn lines(placement: &Placement) -> String {
     let [x, y, z] = shift.to_array().map(|x| number(x, 4));
     lines.push(format!("move = [{x}, {y}, {z}]"));
     lines.join("\n")
+}
+
+/// A number with at most this many significant digits.
+fn digits(x: f64, digits: usize) -> String {
+    let whole = x.abs().log10().floor() as i32 + 1;
+    number(x, usize::try_from(digits as i32 - whole).unwrap_or(0))
 }
 
 /// A number with at most this many decimals.
@@ -246,8 +326,30 @@ mod tests {
             // Up to the slack of a search that knows the skin, and not which root is which.
             assert!(back < 6e-3, "{scale} {turn}: {found:?} misses by {back} m");
         }
-        let small: Vec<DVec3> = roots.iter().map(|p| 7e-5 * *p).collect();
-        assert_eq!(guess(&head, &small), None);
+        let line: Vec<DVec3> = (0..100).map(|i| 0.002 * f64::from(i) * DVec3::X).collect();
+        assert_eq!(guess(&head, &line), None);
+        assert_eq!(guess(&head, &[DVec3::ONE; 9]), None);
+    }
+
+    #[test]
+    fn any_unit_read_as_any_other_is_found_and_so_is_a_scale_of_no_unit() {
+        let head = Head::mannequin();
+        let roots = roots(&head);
+        let units = UNITS.iter().flat_map(|(_, a)| UNITS.iter().map(move |(_, b)| a / b));
+        for scale in units.chain([37.0, 0.011]) {
+            let lying: Vec<DVec3> =
+                roots.iter().map(|p| scale * (*p + DVec3::new(0.3, 0.0, -3.0))).collect();
+            let found = guess(&head, &lying).expect("a guess");
+            assert!((found.scale * scale - 1.0).abs() < 0.03, "{scale}: {found:?}");
+            let text = format!("[groom]\nfile = 'a.obj'\n{}", lines(&found));
+            let scene = frisure::scene::Scene::parse("a", text, "".as_ref()).unwrap();
+            let read = scene.groom.unwrap().placement;
+            assert_eq!(read.scale, found.scale);
+            let far = |p: &DVec3| head.signed_distance().value(read.position(*p)).abs();
+            let mut distances: Vec<f64> = lying.iter().map(far).collect();
+            distances.sort_by(f64::total_cmp);
+            assert!(distances[distances.len() / 2] < 2e-3, "{scale}: {read:?}");
+        }
     }
 
     #[test]

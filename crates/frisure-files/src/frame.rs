@@ -97,19 +97,28 @@ pub fn rotation(turn: DVec3) -> DMat3 {
 }
 
 /// Unit and axes of a file that take precedence over those of its format.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameChoice {
     /// Metres per unit.
     pub metres: Option<f64>,
     /// The axis that points up.
     pub up: Option<UpAxis>,
+    /// Factor on all lengths, whatever the unit is; 1 leaves them as they are.
+    pub scale: f64,
+}
+
+impl Default for FrameChoice {
+    fn default() -> Self {
+        Self { metres: None, up: None, scale: 1.0 }
+    }
 }
 
 impl FrameChoice {
     /// The frame, where `usual` is what holds without a choice.
     #[must_use]
     pub fn or(self, usual: Frame) -> Frame {
-        Frame { metres: self.metres.unwrap_or(usual.metres), up: self.up.unwrap_or(usual.up) }
+        let metres = self.scale * self.metres.unwrap_or(usual.metres);
+        Frame { metres, up: self.up.unwrap_or(usual.up) }
     }
 }
 

@@ -12,11 +12,14 @@ use std::time::Duration;
 
 use tempfile::NamedTempFile;
 
-/// How the name of a hidden file begins.
+/// How the name of a hidden file begins; random letters and digits follow.
 const PREFIX: &str = ".frisure-";
 
 /// How the name of a hidden file ends.
 const SUFFIX: &str = ".tmp";
+
+/// Random letters and digits in the name of a hidden file. Chosen: so many that no person gives a file such a name.
+const RANDOM: usize = 16;
 
 /// Age below which a hidden file is left alone: between its creation and its lock it looks left over. Chosen.
 const YOUNG: Duration = Duration::from_secs(60);
@@ -28,7 +31,7 @@ static SEARCHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 pub(crate) fn create(folder: &Path) -> io::Result<NamedTempFile> {
     remove_left_over(folder);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX).suffix(SUFFIX);
+    builder.prefix(PREFIX).suffix(SUFFIX).rand_bytes(RANDOM);
     // Temporary files are private by default; an output should be as any new file is.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
@@ -56,12 +59,17 @@ fn remove_left_over(folder: &Path) {
     }
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
-        let ours = name.to_str().is_some_and(|n| n.starts_with(PREFIX) && n.ends_with(SUFFIX));
-        if ours && is_left_over(&entry.path()) {
+        if name.to_str().is_some_and(is_ours) && is_left_over(&entry.path()) {
             // Another run may have removed it.
             let _ = fs::remove_file(entry.path());
         }
     }
+}
+
+/// Whether [`create`] gives files such a name: a person may have a `.frisure-notes.tmp` too.
+fn is_ours(name: &str) -> bool {
+    let random = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(SUFFIX));
+    random.is_some_and(|r| r.len() == RANDOM && r.bytes().all(|b| b.is_ascii_alphanumeric()))
 }
 
 /// Whether a hidden file has no writer.

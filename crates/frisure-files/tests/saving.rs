@@ -49,6 +49,16 @@ fn a_file_keeps_its_mode_and_its_owner() {
     assert_eq!(fs::read(&path).unwrap(), b"new");
 }
 
+/// Names of files of others, some nearly such as hidden files have.
+const OTHERS: [&str; 6] = [
+    "mine.tmp",
+    ".frisure-notes.tmp",
+    ".frisure-.tmp",
+    ".frisure-0123456789abc-YZ.tmp",
+    ".frisure-0123456789abcXYZ0.tmp",
+    ".frisure-0123456789abcXYZ.tmp.bak",
+];
+
 #[test]
 fn what_a_killed_run_left_is_removed_and_what_is_being_written_is_not() {
     let folder = tempfile::tempdir().unwrap();
@@ -60,14 +70,19 @@ fn what_a_killed_run_left_is_removed_and_what_is_being_written_is_not() {
         file.set_modified(past).unwrap();
         file
     };
-    drop(old(".frisure-killed.tmp"));
-    drop(old("mine.tmp"));
-    let busy = old(".frisure-busy.tmp");
+    drop(old(".frisure-0123456789abcXYZ.tmp"));
+    for name in OTHERS {
+        drop(old(name));
+    }
+    let busy = old(".frisure-busybusybusybusy.tmp");
     busy.lock().unwrap();
-    File::create(path(".frisure-young.tmp")).unwrap();
+    File::create(path(".frisure-youngyoungyoung0.tmp")).unwrap();
     write_atomically(&path("out"), |out| out.write_all(b"new")).unwrap();
     let names = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name());
     let mut names: Vec<_> = names.map(|n| n.into_string().unwrap()).collect();
     names.sort();
-    assert_eq!(names, [".frisure-busy.tmp", ".frisure-young.tmp", "mine.tmp", "out"]);
+    let kept = [".frisure-busybusybusybusy.tmp", ".frisure-youngyoungyoung0.tmp", "out"];
+    let mut kept: Vec<_> = kept.into_iter().chain(OTHERS).collect();
+    kept.sort_unstable();
+    assert_eq!(names, kept);
 }

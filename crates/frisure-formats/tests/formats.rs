@@ -259,7 +259,8 @@ fn nothing_is_something() {
 fn any_unit_and_axes_come_back() {
     let groom = groom();
     for format in readable() {
-        let choice = FrameChoice { metres: Some(0.0254), up: Some(UpAxis::Z) };
+        let choice =
+            FrameChoice { metres: Some(0.0254), up: Some(UpAxis::Z), ..FrameChoice::default() };
         let bytes = encode(format, &groom, choice).unwrap();
         let back = decode(format, &bytes, Path::new("a"), choice).unwrap();
         assert!(apart(&back.hairs, &groom.hairs) < 1e-7, "{}", format.extension());
@@ -291,11 +292,12 @@ fn hairs_of_a_guide_are_one_wisp() {
 #[test]
 fn gltf_is_in_metres_with_y_up() {
     let frame = named("glb").frame();
-    let usual = FrameChoice { metres: Some(frame.metres), up: Some(frame.up) };
+    let usual =
+        FrameChoice { metres: Some(frame.metres), up: Some(frame.up), ..FrameChoice::default() };
     assert_eq!((frame.metres, frame.up), (1.0, UpAxis::Y));
     assert_eq!(encode(named("glb"), &groom(), usual).unwrap(), written(named("glb"), &groom()));
-    let centimetres = FrameChoice { metres: Some(0.01), up: None };
-    for choice in [centimetres, FrameChoice { metres: None, up: Some(UpAxis::Z) }] {
+    let centimetres = FrameChoice { metres: Some(0.01), ..FrameChoice::default() };
+    for choice in [centimetres, FrameChoice { up: Some(UpAxis::Z), ..FrameChoice::default() }] {
         let error = encode(named("glb"), &groom(), choice).unwrap_err().to_string();
         assert_eq!(error, "a .glb file is in metres, y up, by its specification");
     }

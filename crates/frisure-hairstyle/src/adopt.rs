@@ -9,7 +9,6 @@ use frisure_rod::potential::FieldPotential;
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, Root as Clamp};
 use frisure_strands::{Strand, Strands};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::contact::Bed;
 use crate::equilibrium::{
@@ -23,6 +22,7 @@ use crate::head::Head;
 use crate::implantation::{Layout, out_of_face};
 use crate::implantation::{Root, Scalp};
 use crate::math::Grid;
+use crate::parallel;
 use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
@@ -80,16 +80,12 @@ pub fn adopt(
     let lines: Vec<Vec<DVec3>> =
         guides.iter().map(|s| s.points.iter().map(|p| p.as_dvec3()).collect()).collect();
     let stage = StageCounter::new(progress, "finding fibres", lines.len());
-    let held: Vec<Held> = lines
-        .par_iter()
-        .enumerate()
-        .map(|(index, line)| {
-            stage.check()?;
-            let held = held(&spec, head, line, fibre(&spec, index)?)?;
-            stage.advance();
-            Ok(held)
-        })
-        .collect::<Result<_, PredictError>>()?;
+    let held = parallel::try_map(lines.len(), |index| -> Result<Held, PredictError> {
+        stage.check()?;
+        let held = held(&spec, head, &lines[index], fibre(&spec, index)?)?;
+        stage.advance();
+        Ok(held)
+    })?;
 
     let placement = placement(&mut spec, head, &lines, hairs, &held);
     spec.wisps.check_size(placement.area())?;
@@ -99,8 +95,7 @@ pub fn adopt(
     let start = GuideStart::At(&before);
     let options = SettleOptions { start, effort: Effort::FULL, locks: Vec::new() };
     let rest = settle(&spec, head, &guides, options, progress)?;
-    let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
-    let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
+    let distances = parallel::map(lines.len(), |i| apart(&lines[i], &rest.guides[i]));
     let stiffness_needed = held.iter().map(|held| held.fit.stiffness_needed).collect();
     let inside = lines.iter().filter(|line| is_inside(&spec, head, line)).count();
     let styling = Styling::none(&guides);
@@ -276,7 +271,7 @@ fn placement(
     let bound = (!hairs.is_empty()).then(|| {
         spec.wisps.points = spec.wisps.points.max(usual_points(hairs));
         let wisp = |held: &Held| Wisp::new(&held.fit.target, WISP_SAMPLES, 0.0);
-        Arc::new(BoundStrands::new(hairs, held.par_iter().map(wisp).collect()))
+        Arc::new(BoundStrands::new(hairs, parallel::map_slice(held, wisp)))
     });
     let hairs = Arc::new(Mutex::new(Some(drawn.into())));
     RootPlacement { of: RootPlacement::key(spec, head), area, roots, hairs, bound }

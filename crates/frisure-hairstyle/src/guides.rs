@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
-use rayon::prelude::*;
 
 use crate::contact::{Bed, Layer, Thickness};
 use crate::contact::{FrictionCoefficients, Pull};
@@ -12,6 +11,7 @@ use crate::fibre::{Curl, Handedness};
 use crate::head::{Head, Region};
 use crate::implantation::Root;
 use crate::implantation::{self, Layout};
+use crate::parallel;
 use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
 
@@ -61,16 +61,13 @@ pub(crate) fn plan(
     area: f64,
 ) -> Result<Vec<Guide>, InvalidQuantity> {
     let altitudes = Altitudes::new(spec, roots);
-    roots
-        .par_iter()
-        .enumerate()
-        .map(|(index, &root)| {
-            let altitude = altitudes.of(&root);
-            let planned = fibre(spec, head, layout, &root, index)?;
-            let hold = spec.implantation.hold * layout.held(&root);
-            Ok(Guide { hold, ..covered(spec, head, area, root, altitude, planned) })
-        })
-        .collect()
+    parallel::try_map(roots.len(), |index| {
+        let root = roots[index];
+        let altitude = altitudes.of(&root);
+        let planned = fibre(spec, head, layout, &root, index)?;
+        let hold = spec.implantation.hold * layout.held(&root);
+        Ok(Guide { hold, ..covered(spec, head, area, root, altitude, planned) })
+    })
 }
 
 /// How high roots are against gravity, from the lowest to the highest.

@@ -24,6 +24,7 @@
 #![forbid(unsafe_code)]
 
 mod math;
+mod parallel;
 mod random;
 mod rod_digest;
 
@@ -66,7 +67,7 @@ pub use adopt::{Adoption, adopt};
 pub use contact::Pull;
 pub use equilibrium::{
     Effort, FrictionalRod, HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity,
-    SettlingReport, settling_report,
+    MOST_ELEMENTS, SettlingReport, settling_report,
 };
 pub use fibre::{Curl, Fibre, Handedness, WetLocks, Wetting};
 pub use guides::Guide;

@@ -2,7 +2,6 @@
 
 use frisure_rod::{Equilibrium, InvalidQuantity};
 use glam::DVec3;
-use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, settle};
@@ -13,6 +12,7 @@ use crate::hairstyle::{Crowded, RootPlacement};
 use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
 use crate::math::Grid;
+use crate::parallel;
 use crate::spec::{HairstyleSpec, Implantation, InvalidSpec, Wisps};
 use frisure_progress::{Cancelled, Progress};
 
@@ -133,7 +133,7 @@ fn nearest(guides: &[Guide], other: &Hairstyle) -> Vec<Equilibrium> {
         let nearest = grid.nearest(guide.root.position, 1, &roots);
         other.rest.guides[nearest[0]].clone()
     };
-    guides.par_iter().map(like).collect()
+    parallel::map_slice(guides, like)
 }
 
 /// The hairstyle of another description as [`predict`] gives it, if the two differ in nothing but

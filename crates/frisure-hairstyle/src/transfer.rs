@@ -6,13 +6,13 @@ use frisure_progress::{Cancelled, Progress};
 use frisure_rod::{InvalidQuantity, Rod, RodSpec, Root as Clamp};
 use frisure_strands::Strands;
 use glam::{DMat3, Vec3};
-use rayon::prelude::*;
 
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, settle};
 use crate::guides::{Altitudes, Guide, Planned, covered};
 use crate::hairstyle::{Hairstyle, RootPlacement, Styling};
 use crate::head::{Correspondence, Corresponding, Head};
 use crate::implantation::{Layout, Root, Scalp};
+use crate::parallel;
 use crate::predict::PredictError;
 use crate::strands::{StrandOptions, strands};
 use crate::wisps::{BoundStrand, BoundStrands, WISP_SAMPLES, Wisp};
@@ -43,7 +43,7 @@ pub fn transfer(
             let Corresponding { position, normal, turn } = map.at(root.position, root.normal);
             (Root { position, normal }, turn)
         };
-        roots.par_iter().map(at).collect()
+        parallel::map_slice(roots, at)
     };
     let roots = moved(hairstyle.placement.roots());
     let hairs = moved(&hairstyle.placement.hairs(&spec, from));
@@ -88,16 +88,15 @@ fn rebound(
     progress: &dyn Progress,
 ) -> Result<Option<BoundStrands>, Cancelled> {
     let drawn = strands(transferred, to, StrandOptions::default(), progress)?.strands;
-    let lines: Vec<Vec<Vec3>> = (0..drawn.len())
-        .into_par_iter()
-        .map(|hair| as_long_as(&bound.strand(hair), drawn.strand(hair).points))
-        .collect();
+    let lines = parallel::map(drawn.len(), |hair| {
+        as_long_as(&bound.strand(hair), drawn.strand(hair).points)
+    });
     let mut hairs = Strands::with_capacity(lines.len(), drawn.points().len());
     for (line, strand) in lines.iter().zip(drawn.iter()) {
         hairs.push(line, strand.radii);
     }
-    let wisp = |guide| Wisp::new(guide, WISP_SAMPLES, 0.0);
-    let wisps = transferred.equilibria().par_iter().map(wisp).collect();
+    let wisps =
+        parallel::map_slice(transferred.equilibria(), |guide| Wisp::new(guide, WISP_SAMPLES, 0.0));
     Ok((!lines.is_empty()).then(|| BoundStrands::new(&hairs, wisps)))
 }
 

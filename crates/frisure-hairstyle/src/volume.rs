@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use frisure_strands::Strands;
 use glam::{DVec3, IVec3};
-use rayon::prelude::*;
 
 use crate::head::Head;
+use crate::parallel;
 
 /// Space that hair takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,10 +55,10 @@ pub fn volume(strands: &Strands, head: &Head, grown: f64) -> Volume {
         return Volume { cell: CELL, ..Volume::default() };
     };
     let quanta: Vec<AtomicU64> = (0..cells.count()).map(|_| AtomicU64::new(0)).collect();
-    (0..strands.len()).into_par_iter().for_each(|i| cells.fill(strands, i, &quanta));
+    parallel::map(strands.len(), |i| cells.fill(strands, i, &quanta));
     let standing_for = (grown / strands.len() as f64).max(1.0);
     let hair: Vec<f64> =
-        quanta.into_par_iter().map(|q| q.into_inner() as f64 * QUANTUM * standing_for).collect();
+        quanta.into_iter().map(|q| q.into_inner() as f64 * QUANTUM * standing_for).collect();
     // Summed in order, so that it does not depend on threads.
     Volume { region: cells.region(&hair, head), hair: hair.iter().sum(), cell: cells.side }
 }
@@ -127,14 +127,13 @@ impl Cells {
 
     /// Volume (m³) of the region, of the volumes of hair in each cell.
     fn region(&self, hair: &[f64], head: &Head) -> f64 {
-        let filled: Vec<Fill> = (0..hair.len())
-            .into_par_iter()
-            .map(|i| Fill::new(hair[i] / self.capacity(), self.outside(i, head)))
-            .collect();
-        let inner: Vec<bool> =
-            (0..hair.len()).into_par_iter().map(|i| self.inner(i, &filled)).collect();
-        let counted = |i: usize| self.counted(i, &filled, &inner);
-        let parts: Vec<f64> = (0..hair.len()).into_par_iter().map(counted).collect();
+        let filled = parallel::map(hair.len(), |i| {
+            Fill::new(hair[i] / self.capacity(), self.outside(i, head))
+        });
+        let inner = parallel::map(hair.len(), |i| self.inner(i, &filled));
+        // In place: there are so many cells that an option of a number for each would take much memory.
+        let mut parts = vec![0.0; hair.len()];
+        parallel::for_each_mut(&mut parts, |i, part| *part = self.counted(i, &filled, &inner));
         parts.iter().sum::<f64>() * self.capacity()
     }
 

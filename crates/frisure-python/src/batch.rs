@@ -43,13 +43,13 @@ enum Source {
 }
 
 impl Spec<'_> {
-    fn source(self) -> PyResult<Source> {
+    fn source(self, py: Python<'_>) -> PyResult<Source> {
         Ok(match self {
             Self::File(path) => Source::File(path),
             Self::Text((text, folder)) => Source::Text { name: "<batch>", text, folder },
             Self::Mapping((mapping, folder)) => {
                 let table = table(&mapping, "spec")?;
-                let text = ::toml::to_string(&table).map_err(|e| unwritable(&e))?;
+                let text = ::toml::to_string(&table).map_err(|e| unwritable(py, &e))?;
                 Source::Text { name: "<dict>", text, folder }
             }
         })
@@ -68,20 +68,22 @@ impl Source {
 /// Computes all missing heads of a batch into a folder, on all processors or on so many threads; returns the number of heads, how many
 /// of them were there, how many failed now, and whether there are views.
 ///
-/// A batch with views is refused where the folder does not last, before anything is computed.
+/// Columns that the heads do not have, and views where the folder does not last, are refused before anything is computed.
 #[pyfunction]
-#[pyo3(signature = (spec, folder, lasts, threads, progress))]
+#[pyo3(signature = (spec, folder, lasts, columns, threads, progress))]
 pub(crate) fn run_batch(
     py: Python<'_>,
     spec: Spec<'_>,
     folder: PathBuf,
     lasts: bool,
+    columns: Option<Vec<String>>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(usize, usize, usize, bool)> {
-    let spec = spec.source()?;
+    let spec = spec.source(py)?;
     work::run(py, progress, move |progress| {
-        let run = || compute(&spec, &folder, lasts, progress);
+        let wanted = columns.unwrap_or_default();
+        let run = || compute(&spec, &folder, lasts, &wanted, progress);
         let Some(threads) = threads else { return run() };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.map_err(|e| Error::failed(&e, "ask for fewer threads"))?.install(run)
@@ -92,6 +94,7 @@ fn compute(
     spec: &Source,
     folder: &Path,
     lasts: bool,
+    wanted: &[String],
     progress: &dyn Progress,
 ) -> Result<(usize, usize, usize, bool), Error> {
     let batch = spec.read()?;
@@ -100,7 +103,13 @@ fn compute(
         let problem = "the batch has views, which are files, and there is no folder for them";
         return Err(Error::invalid(problem, "give a folder"));
     }
-    let done = Run::new(batch, folder, Shard::WHOLE)?.all(progress)?;
+    let run = Run::new(batch, folder, Shard::WHOLE)?;
+    let columns = run.columns();
+    if let Some(unknown) = wanted.iter().find(|name| !columns.contains(name)) {
+        let problem = format!("columns has '{unknown}'; there are {}", columns.join(", "));
+        return Err(Error::invalid(problem, ""));
+    }
+    let done = run.all(progress)?;
     Ok((done.heads, done.before, done.failed, views))
 }
 

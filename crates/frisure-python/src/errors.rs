@@ -29,6 +29,16 @@ pub(crate) fn raise(py: Python<'_>, error: &Error) -> PyErr {
     made.unwrap_or_else(|e| e)
 }
 
+/// The exception for a value that is not taken; the text names the argument.
+pub(crate) fn argument(py: Python<'_>, text: &str) -> PyErr {
+    make(py, "ArgumentError", (text,), None).unwrap_or_else(|e| e)
+}
+
+/// The exception for a value of a type that is not taken.
+pub(crate) fn argument_type(py: Python<'_>, text: &str) -> PyErr {
+    make(py, "ArgumentTypeError", (text,), None).unwrap_or_else(|e| e)
+}
+
 /// The exception for an edit of a scene that is impossible; the scene is called `name`.
 pub(crate) fn edit(py: Python<'_>, error: EditError, name: &str) -> PyErr {
     match error {

@@ -111,7 +111,17 @@ impl KnownArrays<'_> {
             torsion: estimate(&self.torsion),
             axis_ratio: estimate(&self.axis_ratio).map_or(1.0, |estimate| estimate.value),
         };
-        known.check().map_err(|problem: KnownError| wrong("known", fibre, &problem))?;
+        let told = |problem: KnownError| {
+            let key = match problem.quantity {
+                "stiffness over weight" => "stiffness_over_weight",
+                "torsional over bending stiffness" => "torsion_ratio",
+                "natural curvature" => "curvature",
+                "natural torsion" => "torsion",
+                _ => "axis_ratio",
+            };
+            wrong(&format!("known['{key}']"), fibre, &problem)
+        };
+        known.check().map_err(told)?;
         Ok(known)
     }
 }

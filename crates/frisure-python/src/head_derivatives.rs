@@ -192,9 +192,9 @@ impl Kept {
 fn told(error: HeadDerivativeError) -> Error {
     match error {
         HeadDerivativeError::Cancelled => Cancelled.into(),
-        HeadDerivativeError::Friction
-        | HeadDerivativeError::JointedElements { .. }
-        | HeadDerivativeError::NotAtRest { .. } => Error::because(&error, ""),
+        HeadDerivativeError::Friction | HeadDerivativeError::NotAtRest { .. } => {
+            Error::because(&error, "")
+        }
         _ => Error::failed(&error, ""),
     }
 }

@@ -2,18 +2,18 @@
 
 use std::path::PathBuf;
 
-use frisure::formats::picture::photo::{Pixels, read};
+use frisure::formats::picture::photo::{MOST_PIXELS, Pixels, read};
 use frisure::hairstyle::preset;
 use frisure::measure::{Crop, Hang, Options, Photo, Scale, draw, measure};
-use frisure_engine::Error;
 use frisure_engine::photo::KnownFibre;
+use frisure_engine::{Error, memory};
 use numpy::PyReadonlyArray3;
-use numpy::ndarray::ArrayView3;
+use numpy::ndarray::{ArrayView3, Axis};
 use pyo3::prelude::*;
 
 use crate::array::Memory;
-use crate::errors::raise;
-use crate::work;
+use crate::errors::{argument, raise};
+use crate::{room, work};
 
 /// A photo: a file, or rows from the top of pixels of red, green, blue (and alpha, which is left out).
 #[derive(FromPyObject)]
@@ -22,12 +22,59 @@ pub(crate) enum Source<'py> {
     File(PathBuf),
 }
 
-fn pixels(array: ArrayView3<'_, u8>) -> Pixels {
+/// Bytes that are copied between two looks at signals.
+const BLOCK: usize = 1 << 24;
+
+/// A copy of an array with three or four channels.
+///
+/// # Errors
+/// `ArgumentError`, if it has more pixels than are measured or have room in memory, and what a signal raises.
+fn copied(py: Python<'_>, array: ArrayView3<'_, u8>) -> PyResult<Pixels> {
     let (height, width, channels) = array.dim();
-    let rows = (0..height).flat_map(|y| (0..width).map(move |x| (y, x)));
-    let value = |y: usize, x: usize, channel: usize| array[[y, x, channel.min(channels - 1)]];
-    let rgb = rows.flat_map(|(y, x)| [0, 1, 2].map(|channel| value(y, x, channel))).collect();
-    Pixels { width, height, rgb }
+    let free = memory::room(memory::PHOTO_PIXEL, 0.0);
+    if width.checked_mul(height).is_none_or(|pixels| pixels > free.min(MOST_PIXELS)) {
+        let most = match free < MOST_PIXELS {
+            true => format!("{free} have room in the memory that is free"),
+            false => format!("{MOST_PIXELS} are read"),
+        };
+        let problem = format!("photo has {width} x {height} pixels; at most {most}");
+        return Err(argument(py, &problem));
+    }
+    let mut rgb = room::list("bytes", 3 * width * height).map_err(|e| raise(py, &e))?;
+    for rows in array.axis_chunks_iter(Axis(0), (BLOCK / (width * channels).max(1)).max(1)) {
+        py.check_signals()?;
+        py.detach(|| append(&mut rgb, rows));
+    }
+    Ok(Pixels { width, height, rgb })
+}
+
+/// Appends red, green and blue of the pixels of some rows.
+fn append(rgb: &mut Vec<u8>, rows: ArrayView3<'_, u8>) {
+    let (height, width, channels) = rows.dim();
+    if let Some(bytes) = rows.as_slice().filter(|_| channels == 3) {
+        return rgb.extend_from_slice(bytes);
+    }
+    let start = rgb.len();
+    rgb.resize(start + 3 * width * height, 0);
+    if width == 0 {
+        return;
+    }
+    for (line, row) in rgb[start..].chunks_exact_mut(3 * width).zip(rows.outer_iter()) {
+        match row.as_slice() {
+            Some(bytes) if channels == 3 => line.copy_from_slice(bytes),
+            Some(bytes) => {
+                for (place, pixel) in line.chunks_exact_mut(3).zip(bytes.chunks_exact(channels)) {
+                    place.copy_from_slice(&pixel[..3]);
+                }
+            }
+            None => {
+                for channel in 0..3 {
+                    let places = line.iter_mut().skip(channel).step_by(3);
+                    places.zip(row.column(channel)).for_each(|(place, value)| *place = *value);
+                }
+            }
+        }
+    }
 }
 
 /// What is known besides the photo.
@@ -72,14 +119,15 @@ pub(crate) fn measure_photo(
         raise(py, &Error::invalid(format!("scale is {scale:?}: {problem}"), ""))
     })?;
     let given = match photo {
-        Source::Pixels(array) => Ok(pixels(array.as_array())),
+        Source::Pixels(array) => Ok(copied(py, array.as_array())?),
         Source::File(path) => Err(path),
     };
     let crop = crop.map(|(x, y, width, height)| Crop { x, y, width, height });
     let found = work::run(py, progress, move |p| {
         let mut pixels = match given {
             Ok(pixels) => pixels,
-            Err(path) => read(&path).map_err(|e| Error::because(&e, ""))?,
+            Err(path) => read(&path, memory::room(memory::PHOTO_PIXEL, 0.0))
+                .map_err(|e| Error::because(&e, ""))?,
         };
         let fibre = known.fibre()?.fibre().map_err(|e| Error::because(&e, ""))?;
         let hang = if hangs { Hang::Down } else { Hang::None };

@@ -104,7 +104,7 @@ impl SceneText {
         folder: PathBuf,
     ) -> PyResult<Self> {
         let table = table(mapping, "scene")?;
-        let text = ::toml::to_string(&table).map_err(|e| unwritable(&e))?;
+        let text = ::toml::to_string(&table).map_err(|e| unwritable(py, &e))?;
         Self::parsed(py, "<dict>".into(), text, &folder, false)
     }
 

@@ -1,18 +1,35 @@
 //! Python values as TOML, as scenes have them.
 
-use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
 use toml::{Table, Value};
 
+use crate::errors::{argument, argument_type};
+
+/// Most lists and tables within each other. Chosen below the 80 that the parser of TOML reads, so that the key is named.
+const DEEPEST: usize = 64;
+
+/// Longest name of a value in a message (characters).
+const LONGEST_NAME: usize = 200;
+
 /// The value as TOML; errors call it `name`.
 pub(crate) fn toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Value> {
+    within(value, name, 0)
+}
+
+/// A mapping as a table.
+pub(crate) fn table(items: &Bound<'_, PyMapping>, name: &str) -> PyResult<Table> {
+    table_within(items, name, 0)
+}
+
+/// A value in so many lists and tables.
+fn within(value: &Bound<'_, PyAny>, name: &str, depth: usize) -> PyResult<Value> {
     // The interpreter's own types first. A bool is an int in Python, and no number in scenes.
     if let Ok(value) = value.cast::<PyBool>() {
         return Ok(Value::Boolean(value.is_true()));
     }
-    if let Ok(text) = value.cast::<PyString>() {
-        return Ok(Value::String(text.to_str()?.to_owned()));
+    if let Ok(found) = value.cast::<PyString>() {
+        return text(found, name).map(Value::String);
     }
     if value.is_instance_of::<PyInt>() {
         return integer(value, name);
@@ -20,65 +37,85 @@ pub(crate) fn toml(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Value> {
     if let Ok(number) = value.cast::<PyFloat>() {
         return Ok(Value::Float(number.value()));
     }
+    if depth > DEEPEST {
+        let name = shortened(name);
+        let problem = format!(
+            "{name} is in more than {DEEPEST} dicts and lists, or in itself; scenes have fewer"
+        );
+        return Err(argument(value.py(), &problem));
+    }
     if let Ok(items) = value.cast::<PyMapping>() {
-        return table(items, name).map(Value::Table);
+        return table_within(items, name, depth).map(Value::Table);
     }
     if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
-        return list(value, name);
+        let items = value.try_iter()?.enumerate();
+        let items = items.map(|(i, item)| within(&item?, &format!("{name}[{i}]"), depth + 1));
+        return items.collect::<PyResult<_>>().map(Value::Array);
     }
-    foreign(value, name)
+    foreign(value, name, depth)
 }
 
-/// A mapping as a table.
-pub(crate) fn table(items: &Bound<'_, PyMapping>, name: &str) -> PyResult<Table> {
+fn table_within(items: &Bound<'_, PyMapping>, name: &str, depth: usize) -> PyResult<Table> {
     let mut table = Table::new();
     for item in items.items()? {
         let (key, value) = item.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()?;
         let Ok(key) = key.cast::<PyString>() else {
-            let shown = key.repr()?;
-            return Err(PyTypeError::new_err(format!("the key {shown} of {name} is no text")));
+            let (shown, name) = (key.repr()?, shortened(name));
+            let problem = format!("the key {shown} of {name} is no text");
+            return Err(argument_type(items.py(), &problem));
         };
-        let key = key.to_str()?.to_owned();
+        let key = text(key, name)?;
         if !value.is_none() {
-            let value = toml(&value, &format!("{name}[{key:?}]"))?;
+            let value = within(&value, &format!("{name}[{key:?}]"), depth + 1)?;
             table.insert(key, value);
         }
     }
     Ok(table)
 }
 
+/// A text; one with half of a surrogate pair has no UTF-8.
+fn text(value: &Bound<'_, PyString>, name: &str) -> PyResult<String> {
+    let wrong = |_| {
+        let problem = format!("{} has a lone surrogate, which is no character", shortened(name));
+        argument(value.py(), &problem)
+    };
+    value.to_str().map(str::to_owned).map_err(wrong)
+}
+
+fn shortened(name: &str) -> String {
+    match name.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("{}…", &name[..end]),
+        None => name.to_owned(),
+    }
+}
+
 fn integer(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Value> {
     let whole = value.extract::<i64>().map_err(|_| {
-        PyValueError::new_err(format!("{name} is {value}; scenes have whole numbers of 64 bits"))
+        let problem = format!("{name} is {value}; scenes have whole numbers of 64 bits");
+        argument(value.py(), &problem)
     });
     whole.map(Value::Integer)
 }
 
-fn list(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Value> {
-    let items = value.try_iter()?.enumerate();
-    let items = items.map(|(i, item)| toml(&item?, &format!("{name}[{i}]")));
-    items.collect::<PyResult<_>>().map(Value::Array)
-}
-
 /// Values of other libraries: paths, NumPy's numbers and arrays.
-fn foreign(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Value> {
+fn foreign(value: &Bound<'_, PyAny>, name: &str, depth: usize) -> PyResult<Value> {
     let py = value.py();
     if value.hasattr("__fspath__")? {
         let path = py.import("os")?.call_method1("fspath", (value,))?;
-        return toml(&path, name);
+        return within(&path, name, depth + 1);
     }
     if value.hasattr("tolist")? {
         // NumPy's arrays and scalars.
         let plain = value.call_method0("tolist")?;
         if !plain.get_type().is(value.get_type()) {
-            return toml(&plain, name);
+            return within(&plain, name, depth + 1);
         }
     }
-    let kind = value.get_type().qualname()?;
-    let message = format!(
+    let (kind, name) = (value.get_type().qualname()?, shortened(name));
+    let problem = format!(
         "{name} is of the type {kind}; scenes have text, numbers, bools, lists, dicts and paths"
     );
-    Err(PyTypeError::new_err(message))
+    Err(argument_type(py, &problem))
 }
 
 /// A value as one line.
@@ -87,6 +124,6 @@ pub(crate) fn inline(value: &Value) -> String {
 }
 
 /// The error of a mapping that cannot be written as TOML.
-pub(crate) fn unwritable(error: &toml::ser::Error) -> PyErr {
-    PyValueError::new_err(format!("it cannot be written as a scene: {error}"))
+pub(crate) fn unwritable(py: Python<'_>, error: &toml::ser::Error) -> PyErr {
+    argument(py, &format!("it cannot be written as a scene: {error}"))
 }

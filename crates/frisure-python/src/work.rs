@@ -10,7 +10,7 @@ use frisure::progress::Progress;
 use frisure_engine::{Error, catch_panic};
 use pyo3::prelude::*;
 
-use crate::errors::raise;
+use crate::errors::{argument_type, raise};
 
 /// Time between two looks at signals and progress.
 const POLL: Duration = Duration::from_millis(20);
@@ -60,6 +60,13 @@ pub(crate) fn run<T: Send + 'static>(
     callback: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&dyn Progress) -> Result<T, Error> + Send + 'static,
 ) -> PyResult<T> {
+    if let Some(callback) = callback.filter(|callback| !callback.is_callable()) {
+        let problem = format!(
+            "progress is {}; it must be a function of a stage and a fraction, or None",
+            callback.repr()?
+        );
+        return Err(argument_type(py, &problem));
+    }
     begin(py)?;
     let reports = Arc::new(Reports::default());
     let mut end = start(work, reports.clone()).map_err(|e| raise(py, &e))?;

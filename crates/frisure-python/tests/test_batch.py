@@ -74,6 +74,32 @@ def test_views_need_a_folder_and_are_read_from_there(tmp_path: Path) -> None:
     assert [view["color"].shape for view in frisure.data.views(tmp_path)] == [(30, 40, 3)] * 2
 
 
+def test_columns_may_be_any_iterable_and_are_checked_before_the_work(tmp_path: Path) -> None:
+    chosen = ["hair.length", "drop"]
+    table = frisure.batch(BATCH, tmp_path, columns=(name for name in chosen))
+    assert sorted(table.schema.names) == sorted(chosen)
+    head = next(frisure.data.heads(tmp_path, columns=(name for name in chosen)))
+    assert {"hair.length", "drop"} <= set(head)
+    heard: list[float] = []
+    with pytest.raises(frisure.ArgumentError, match="columns has 'hair.lenght'; there are index, status"):
+        frisure.batch(BATCH, columns=["hair.lenght"], progress=lambda stage, done: heard.append(done))
+    assert not heard
+    for wrong in (3, "drop", [1]):
+        with pytest.raises(frisure.ArgumentError, match="columns is .*; it must be a list of names"):
+            frisure.data.heads(tmp_path, columns=wrong)  # type: ignore[arg-type]
+
+
+def test_the_wrong_number_of_a_range_is_named_at_its_place() -> None:
+    for value, words in ((float("nan"), "is nan; it must be a finite number"), ("20 kg", 'is "20 kg"; it must be a length')):
+        with pytest.raises(frisure.SceneError, match=rf"`vary.hair.length.from` {words}") as told:
+            frisure.batch({"samples": 1, "vary": {"hair.length": {"from": value, "to": 1}}})
+        assert told.value.line == 4, told.value
+    itself: dict[str, Any] = {}
+    itself["a"] = itself
+    with pytest.raises(frisure.ArgumentError, match="vary.*more than 64 dicts and lists"):
+        frisure.batch({"samples": 1, "vary": itself})
+
+
 def test_an_exception_of_progress_ends_the_batch_and_wrong_arguments_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -232,3 +232,15 @@ def test_the_bound_of_the_eigenvalue_is_one_without_weight_and_more_where_weight
     hanging = rods.settle(0.15, tangent=[0, 0, -1], **curl).vjp(loss)
     assert hanging.eigenvalue_bound[0] > 1.5
     assert rods.settle(0.15, **curl).vjp(0 * loss).eigenvalue_bound[0] == 1.0
+
+
+def test_derivatives_that_are_not_finite_are_not_regular() -> None:
+    far = rods.settle(0.1, curl_radius=[1e160, 5e-3], curl_pitch=1e-2, derivatives=True)
+    found = far.vjp(np.ones((2, 16, 3)))
+    assert found.curl_radius is not None and found.curl_pitch is not None
+    assert abs(found.curl_radius[0]) < 1e-300 and abs(found.curl_pitch[0]) < 1e-300 and found.regular.all()
+    assert np.abs(far.jvp(curl_radius=[1.0, 0.0]).points).max() < 1e-300
+    large = np.zeros((2, 16, 3))
+    large[0] = 1e308
+    with np.errstate(all="ignore"):
+        assert list(far.vjp(large).regular) == [False, True]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
 import io
 import json
@@ -175,6 +176,31 @@ def test_a_pickled_hairstyle_is_the_same(hair: frisure.Hairstyle) -> None:
     assert "not predicted yet" in repr(again)
     assert np.array_equal(again.strands.points, hair.wet().strands.points)
     assert "30 of 30 guides at rest" in repr(again)
+
+
+def test_strands_are_copied_and_pickled_with_their_arrays(hair: frisure.Hairstyle) -> None:
+    for same in (pickle.loads(pickle.dumps(hair.strands)), copy.deepcopy(hair.guides), copy.copy(hair.guides)):
+        of = hair.strands if len(same) == len(hair.strands) else hair.guides
+        assert np.array_equal(same.points, of.points) and np.array_equal(same.offsets, of.offsets)
+        assert np.array_equal(same.radii, of.radii) and same.per_point == of.per_point
+        assert set(same.attributes) == set(of.attributes)
+        assert all(np.array_equal(same.attributes[name], of.attributes[name]) for name in of.attributes)
+        assert repr(same) == repr(of) and not same.points.flags.writeable
+
+
+def test_wrong_types_are_errors_of_the_package(hair: frisure.Hairstyle, tmp_path: Path) -> None:
+    wrong: list[tuple[Any, str]] = [
+        (lambda: hair.render(20, 20, alpha=1), "alpha is 1"),  # type: ignore[arg-type]
+        (lambda: hair.render(20, 20, progress=1), "progress is 1"),  # type: ignore[arg-type]
+        (lambda: hair.save(tmp_path / "a.hair", fibres="x"), "fibres is 'x'"),  # type: ignore[arg-type]
+        (lambda: hair.save(3), "path is 3"),  # type: ignore[arg-type]
+        (lambda: hair.step(1), "step is 1"),  # type: ignore[arg-type]
+        (lambda: hair.strands[np.array([0, 1])], "index of a strand is array"),  # type: ignore[call-overload]
+    ]
+    for call, words in wrong:
+        with pytest.raises(frisure.ArgumentError, match=words):
+            call()
+    assert issubclass(frisure.ArgumentTypeError, (TypeError, ValueError))
 
 
 def test_pictures_are_arrays(hair: frisure.Hairstyle) -> None:

@@ -12,21 +12,27 @@ SCENE: dict[str, Any] = {
     "hair": {"type": "caucasian-wavy", "length": "20 cm"},
     "wisps": {"count": 24, "hairs": 100},
     "contact": {"hair": "wisps", "hair_stiffness": 30.0},
-    "equilibrium": {"element": "helix", "elements": 12, "method": "continuation"},
+    "equilibrium": {"elements": 12, "method": "continuation"},
 }
 
 
-def with_contact(**numbers: float) -> frisure.HeadDerivatives:
-    return frisure.predict({**SCENE, "contact": {**SCENE["contact"], **numbers}}).derivatives()
+def predicted(element: str, **numbers: float) -> frisure.Hairstyle:
+    contact = {**SCENE["contact"], **numbers}
+    return frisure.predict({**SCENE, "contact": contact, "equilibrium": {**SCENE["equilibrium"], "element": element}})
+
+
+@pytest.fixture(scope="module", params=["helix", "jointed"])
+def element(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
 
 
 @pytest.fixture(scope="module")
-def head() -> frisure.HeadDerivatives:
-    return with_contact()
+def head(element: str) -> frisure.HeadDerivatives:
+    return predicted(element).derivatives()
 
 
-def test_the_nodes_are_those_of_the_guides(head: frisure.HeadDerivatives) -> None:
-    guides = frisure.predict(SCENE).guides
+def test_the_nodes_are_those_of_the_guides(element: str, head: frisure.HeadDerivatives) -> None:
+    guides = predicted(element).guides
     assert len(head) == 24 and head.points.shape == (24 * 13, 3)
     assert list(np.diff(head.offsets)) == [13] * 24
     tips = guides.points[guides.offsets[1:] - 1]
@@ -35,10 +41,10 @@ def test_the_nodes_are_those_of_the_guides(head: frisure.HeadDerivatives) -> Non
     assert "24 guides" in repr(head)
 
 
-def test_the_stiffness_of_hair_moves_the_head_as_differences_do(head: frisure.HeadDerivatives) -> None:
+def test_the_stiffness_of_hair_moves_the_head_as_differences_do(element: str, head: frisure.HeadDerivatives) -> None:
     step = 1e-3
-    apart = with_contact(hair_stiffness=30.0 + step).points - with_contact(hair_stiffness=30.0 - step).points
-    expected = apart / (2 * step)
+    stiffer, softer = (predicted(element, hair_stiffness=30.0 + sign * step).derivatives() for sign in (1, -1))
+    expected = (stiffer.points - softer.points) / (2 * step)
     found = head.jvp(hair_stiffness=1.0).points
     assert np.abs(found - expected).max() < 1e-4 * np.abs(expected).max()
 
@@ -85,6 +91,24 @@ def test_a_head_without_derivatives_says_why() -> None:
     rubs = {**SCENE, "contact": {**SCENE["contact"], "friction": 0.4}}
     with pytest.raises(ValueError, match="contact.friction"):
         frisure.predict(rubs).derivatives()
-    jointed = {**SCENE, "equilibrium": {**SCENE["equilibrium"], "element": "jointed"}}
-    with pytest.raises(ValueError, match="helix"):
-        frisure.predict(jointed).derivatives()
+
+
+def test_without_what_follows_from_weight_the_sums_are_derivatives_by_keys_of_the_scene() -> None:
+    free = {**SCENE, "contact": {"hair": "wisps", "volume": 0}, "implantation": {"hold": 0}}
+
+    def at_rest(**numbers: Any) -> frisure.HeadDerivatives:
+        scene = frisure.Scene(free)
+        scene.update({key.replace("__", "."): value for key, value in numbers.items()})
+        return frisure.predict(scene).derivatives()
+
+    head = at_rest()
+    loss = np.random.default_rng(2).normal(size=head.points.shape)
+    by = head.vjp(loss)
+    for key, value, found in (
+        ("gravity", 9.81, -by.gravity_vector[:, 2].sum()),
+        ("hair__fibre__density", 1300.0, by.density.sum()),
+        ("hair__fibre__youngs_modulus", 3.9e9, by.youngs_modulus.sum()),
+    ):
+        heavier, lighter = (at_rest(**{key: value * (1 + sign * 1e-4)}) for sign in (1, -1))
+        expected = ((heavier.points - lighter.points) * loss).sum() / (2e-4 * value)
+        assert found == pytest.approx(expected, rel=1e-3), key

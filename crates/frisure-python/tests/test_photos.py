@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import frisure
@@ -39,16 +41,34 @@ def test_a_lock_is_measured_from_an_array() -> None:
     alpha = np.dstack([given, np.full(given.shape[:2], 255, np.uint8)])
     again = frisure.measure(alpha[:, :, :], "10 px/mm", hang="none")
     assert again.apparent_radius == found.apparent_radius
+    for strided in (np.flipud(np.flipud(given).copy()), np.fliplr(np.fliplr(alpha).copy()), np.asfortranarray(given)):
+        assert not strided.flags.c_contiguous
+        assert np.array_equal(frisure.measure(strided, "10 px/mm", hang="none").overlay, found.overlay)
     part = frisure.measure(given, "10 px/mm", hang="none", crop=(50, 100, 400, 1000))
     assert part.apparent_radius == pytest.approx(RADIUS, rel=0.1)
 
 
 def test_weight_is_taken_out() -> None:
-    lying, hanging = (frisure.measure(photo(), "10 px/mm", hang=hang, length=0.12) for hang in ("none", "down"))
+    lying, hanging = (frisure.measure(photo(), "10 px/mm", hang=hang, length=np.float32(0.12)) for hang in ("none", "down"))
     assert lying.curl_pitch is not None and hanging.curl_pitch is not None
     # What hangs is drawn out: without weight the curl is shorter.
     assert hanging.curl_pitch < lying.curl_pitch
     assert hanging.curl_radius_sd is not None and hanging.curl_radius_sd > 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell what is free")
+def test_a_photo_without_room_is_refused_before_it_is_copied() -> None:
+    program = """
+import resource, frisure, numpy as np
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + (300 << 20),) * 2)
+try:
+    frisure.measure(np.broadcast_to(np.uint8(240), (12_000, 12_000, 3)), "10 px/mm")
+except frisure.ArgumentError as error:
+    print(error)
+"""
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert "photo has 12000 x 12000 pixels; at most" in told.stdout and "have room" in told.stdout
 
 
 def test_what_does_not_tell_is_said() -> None:
@@ -74,6 +94,12 @@ def test_wrong_arguments_are_named(tmp_path: Path) -> None:
         (lambda: frisure.measure(good, "10 px/mm", crop=(400, 0, 400, 400)), "not within"),
         (lambda: frisure.measure(good, "10 px/mm", crop=(0, 0, 1, -1)), "crop is"),
         (lambda: frisure.measure(tmp_path / "none.jpg", "10 px/mm"), "none.jpg"),
+        (lambda: frisure.measure(good, 10), "scale is 10"),  # type: ignore[arg-type]
+        (lambda: frisure.measure(good, "10 px/mm", hair_type=None), "hair_type is None"),  # type: ignore[arg-type]
+        (lambda: frisure.measure(good, "10 px/mm", crop=5), "crop is 5"),  # type: ignore[arg-type]
+        (lambda: frisure.measure(good, "10 px/mm", crop=(10**30, 0, 1, 1)), "crop is"),
+        (lambda: frisure.measure(np.ma.masked_less(good, 9), "10 px/mm"), "photo has masked values"),
+        (lambda: frisure.measure(np.broadcast_to(np.uint8(240), (40_000, 40_000, 3)), "10 px/mm"), "photo has 40000 x 40000 pixels; at most"),
     ]:
         with pytest.raises(ValueError, match=words):
             wrong()

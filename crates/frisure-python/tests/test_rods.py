@@ -282,3 +282,45 @@ def test_help_has_every_field_with_its_meaning(kind: type) -> None:
     for field in dataclasses.fields(kind):
         name = field.name.removesuffix("_sd")
         assert f"`{name}`" in text, field.name
+
+
+def test_masked_values_are_refused_by_name() -> None:
+    masked: Any = np.ma.masked_array([0.1, 99.0], mask=[False, True])  # type: ignore[no-untyped-call]
+    points: Any = np.ma.masked_invalid(np.full((1, 6, 3), np.nan))  # type: ignore[no-untyped-call]
+    rest = rods.settle([0.1, 0.1], derivatives=True)
+    loss: Any = np.ma.masked_greater(np.ones((2, 16, 3)), 0)  # type: ignore[no-untyped-call]
+    wrong: list[tuple[Any, str]] = [
+        (lambda: rods.settle(masked), "length has masked"),
+        (lambda: rods.settle(0.1, curl_radius=masked), "curl_radius has masked"),
+        (lambda: rods.inverse(points), "points has masked"),
+        (lambda: rest.vjp(loss), "by_points has masked"),
+        (lambda: rest.jvp(length=masked), "length has masked"),
+        (lambda: frisure.fit(points), "strands has masked"),
+        (lambda: frisure.fit([points[0]]), r"strands\[?0?\]? has masked"),
+        (lambda: frisure.fit(np.zeros((2, 6, 3)), length=masked), "length has masked"),
+    ]
+    for call, words in wrong:
+        with pytest.raises(frisure.ArgumentError, match=words):
+            call()
+    assert rods.settle(np.ma.masked_array([0.1, 0.2])).stable.all()  # type: ignore[no-untyped-call]
+
+
+def test_wrong_types_are_errors_of_the_package() -> None:
+    for call, words in (
+        (lambda: rods.settle("a"), "length has the dtype"),  # type: ignore[arg-type]
+        (lambda: rods.settle(0.1, diameter=None), "diameter has the dtype object"),  # type: ignore[arg-type]
+        (lambda: rods.settle(0.1, progress=1), "progress is 1; it must be a function"),  # type: ignore[arg-type]
+        (lambda: rods.settle(0.1, tolerance=10**400), "tolerance is 1000"),
+        (lambda: rods.settle(0.1, elements=10**5000), "elements is of the type int"),
+        (lambda: rods.settle(0.1, root=[1, 0]), r"root has the shape \(2,\)"),
+    ):
+        with pytest.raises(frisure.ArgumentError, match=words):
+            call()
+
+
+def test_results_are_told_in_a_line() -> None:
+    rest = rods.settle([0.1, 0.2], elements=8, derivatives=True)
+    assert repr(rest) == "<frisure.rods.Settled: 2 of 2 rods stable, points (2, 9, 3), with derivatives>"
+    assert repr(rods.settle(0.1, points=False)) == "<frisure.rods.Settled: 1 of 1 rods stable>"
+    assert repr(rest.vjp(np.ones((2, 9, 3)))) == "<frisure.rods.Gradient: 2 of 2 rods with derivatives, 2 regular>"
+    assert "2 rods" in repr(rest.jvp(length=1.0)) and "of 2 fibres" in repr(rods.inverse(rest.points))

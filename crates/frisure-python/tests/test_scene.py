@@ -6,6 +6,7 @@ import copy
 import errno
 import pickle
 from pathlib import Path
+from typing import Any
 
 import frisure
 import numpy as np
@@ -208,6 +209,64 @@ def test_values_that_no_scene_has_are_refused_by_name() -> None:
         frisure.predict(3)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="64 bits"):
         frisure.Scene({"seed": 2**70})
+
+
+def nested(depth: int) -> dict[str, Any]:
+    inner: dict[str, Any] = {}
+    for _ in range(depth):
+        inner = {"a": inner}
+    return inner
+
+
+def test_values_that_are_too_deep_are_refused_by_name() -> None:
+    itself: dict[str, Any] = {}
+    itself["hair"] = itself
+    items: list[Any] = []
+    items.append(items)
+    scene = frisure.Scene({"hair": {"type": "wavy"}})
+    for wrong in (itself, nested(10_000), nested(100), {"step": items}):
+        with pytest.raises(frisure.ArgumentError, match=r'scene\["(hair|a|step)"\].* more than 64 dicts and lists'):
+            frisure.Scene(wrong)
+    with pytest.raises(frisure.ArgumentError, match='hair.*more than 64 dicts and lists'):
+        scene["hair"] = itself
+    with pytest.raises(frisure.ArgumentError, match="cut.*more than 64 dicts and lists"):
+        scene.with_step("cut", itself)
+    with pytest.raises(frisure.ArgumentError, match=r"`a\.a\..*more than 64 names"):
+        scene[".".join("a" * 30_000)] = 1
+    with pytest.raises(frisure.SceneError, match="unknown key"):
+        frisure.Scene(nested(60))
+    assert scene.to_dict() == {"hair": {"type": "wavy"}}
+
+
+def test_every_wrong_type_is_an_error_of_the_package() -> None:
+    scene = frisure.Scene({})
+    wrong: list[tuple[Any, str]] = [
+        (lambda: frisure.Scene({"hair": {"length": b"1"}}), r'scene\["hair"\]\["length"\] is of the type bytes'),
+        (lambda: frisure.Scene({1: {}}), "the key 1 of scene"),  # type: ignore[dict-item]
+        (lambda: frisure.Scene({"hair": {"type": "\ud800"}}), r'scene\["hair"\]\["type"\] has a lone surrogate'),
+        (lambda: frisure.Scene("\ud800\n"), "scene is .*lone surrogate"),
+        (lambda: frisure.Scene({}, folder=3), "folder is 3"),  # type: ignore[arg-type]
+        (lambda: scene.update({"hair.\ud800": 1}), "a key is .*lone surrogate"),
+        (lambda: scene.number(None), "key is None"),  # type: ignore[arg-type]
+        (lambda: scene.with_step(1), "step is 1"),  # type: ignore[arg-type]
+        (lambda: scene.save(3), "path is 3"),  # type: ignore[arg-type]
+        (lambda: frisure.predict(scene, like=1), "like is of the type int"),  # type: ignore[arg-type]
+        (lambda: frisure.predict(scene, progress=1), "progress is 1"),  # type: ignore[arg-type]
+    ]
+    for call, words in wrong:
+        with pytest.raises(frisure.ArgumentError, match=words):
+            call()
+
+
+def test_a_key_that_is_popped_is_returned() -> None:
+    scene = frisure.Scene({"hair": {"type": "wavy"}, "wisps": {"count": 12, "hairs": 50}})
+    assert scene.pop("wisps") == {"count": 12, "hairs": 50} and "wisps" not in scene
+    assert scene.hair.pop("length", "3 cm") == "3 cm"
+    with pytest.raises(KeyError, match="hair.length"):
+        scene.hair.pop("length")
+    assert scene.popitem() == ("hair", {"type": "wavy"})
+    with pytest.raises(KeyError):
+        frisure.Scene({}).popitem()
 
 
 def test_every_preset_is_a_scene() -> None:

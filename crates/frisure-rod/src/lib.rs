@@ -104,6 +104,7 @@ mod rotation;
 mod section;
 mod strain;
 mod stumpff;
+mod unresolved;
 
 pub use bishop::{bending, twist_free_frames};
 pub use centre_line::{Node, centre_line};

@@ -89,7 +89,7 @@ impl StrainProfile {
     }
 
     /// Integral of the strain from the first knot to `s` (rad).
-    fn integral(&self, s: f64) -> DVec3 {
+    pub(crate) fn integral(&self, s: f64) -> DVec3 {
         // Whole trapezia up to the knot before s, and the part of the next.
         let after = self.knots.partition_point(|k| k.0 <= s);
         // Before the first knot the strain is constant, and the integral negative.
@@ -105,6 +105,10 @@ impl StrainProfile {
 /// Part of the largest strain by which a jump changes it. Chosen: profiles that are sampled finely change by less
 /// between neighbouring knots.
 const JUMP: f64 = 0.1;
+
+/// Part of an element within which a change is a step, of which several together are as a jump. Chosen: of a profile with 64 knots only the
+/// first divisions have such elements.
+const STEP: f64 = 0.25;
 
 impl NaturalStrain {
     /// A straight fibre.
@@ -171,18 +175,22 @@ impl NaturalStrain {
         }
     }
 
-    /// Whether the strain changes within less than a `length` (m), an element, by so much that no element resolves it.
-    pub(crate) fn jumps_within(&self, length: f64) -> bool {
-        match self {
-            Self::Uniform(_) => false,
-            Self::Varying(p) => {
-                let most = p.knots.iter().map(|k| k.1.length()).fold(0.0, f64::max);
-                p.knots.windows(2).any(|pair| {
-                    let [(from, before), (to, after)] = [pair[0], pair[1]];
-                    to - from < length && before.distance(after) > JUMP * most
-                })
+    /// Whether the strain of a fibre of some length (m) changes within less than an element of the length `h` (m) by so much that no
+    /// element resolves it: at once, or in many small steps.
+    pub(crate) fn jumps_within(&self, h: f64, length: f64) -> bool {
+        let Self::Varying(p) = self else { return false };
+        // What is beyond the tip is no part of the fibre.
+        let most = JUMP * self.max_magnitude(length);
+        let inside = |pair: &&[(f64, DVec3)]| pair[1].0 > 0.0 && pair[0].0 < length;
+        let mut steps = 0.0;
+        p.knots.windows(2).filter(inside).any(|pair| {
+            let [(from, before), (to, after)] = [pair[0], pair[1]];
+            let change = before.distance(after);
+            if to - from < STEP * h {
+                steps += change;
             }
-        }
+            steps > most || (to - from < h && change > most)
+        })
     }
 
     pub(crate) fn check(&self) -> Result<(), InvalidQuantity> {
@@ -215,6 +223,35 @@ mod tests {
             let from = 0.3 * k as f64;
             assert!(mean.distance(u.mean(from, from + 0.3)) < 1e-15 / 0.3);
         }
+    }
+
+    #[test]
+    fn a_profile_jumps_where_elements_do_not_resolve_it() {
+        let profile = |knots: &[(f64, DVec3)]| {
+            NaturalStrain::Varying(StrainProfile::new(knots.to_vec()).unwrap())
+        };
+        let jump =
+            [(0.0, DVec3::X), (0.5, DVec3::X), (0.501, 1.2 * DVec3::X), (1.0, 1.2 * DVec3::X)];
+        assert!(profile(&jump).jumps_within(0.01, 1.0));
+        assert!(!profile(&jump).jumps_within(0.0005, 1.0));
+        // What is beyond the tip neither hides a jump nor is one.
+        let beyond = (2.0, 1000.0 * DVec3::X);
+        assert!(profile(&[&jump[..], &[beyond]].concat()).jumps_within(0.01, 1.0));
+        let after = [(0.0, DVec3::X), (1.5, DVec3::X), (1.501, 9.0 * DVec3::X)];
+        assert!(!profile(&after).jumps_within(0.01, 1.0));
+        // Many small steps are as a jump.
+        let stairs: Vec<_> = (0..6)
+            .flat_map(|k| {
+                let (s, u) = (0.15 * f64::from(k), (1.0 + 0.05 * f64::from(k)) * DVec3::X);
+                [(s + 1e-6, u), (s + 0.15, u)]
+            })
+            .collect();
+        assert!(profile(&stairs).jumps_within(0.01, 1.0));
+        // A smooth profile with many knots is none.
+        let smooth: Vec<_> = (0..65)
+            .map(|k| (f64::from(k) / 64.0, (f64::from(k) / 10.0).cos() * DVec3::X))
+            .collect();
+        assert!(!profile(&smooth).jumps_within(1.0 / 24.0, 1.0));
     }
 
     #[test]

@@ -179,6 +179,34 @@ fn just_beyond_the_load_the_lean_is_that_of_the_exact_rod() {
 }
 
 #[test]
+fn extrapolations_of_a_lean_do_not_agree_by_chance() {
+    // lean² / ε is linear in ε between the elasticas of LEANS, to a part in a million.
+    let squared = |k: usize| LEANS[k].1.powi(2) / LEANS[k].0;
+    let slope = (squared(0) - squared(3)) / (LEANS[0].0 - LEANS[3].0);
+    for k in 0..48 {
+        let excess = 1e-5 * 100.0_f64.powf(f64::from(k) / 47.0);
+        let lean = (excess * (squared(3) + slope * (excess - LEANS[3].0))).sqrt();
+        let rod = straight(GREENHILL * (1.0 + excess), DVec3::Z);
+        for asked in [1e-3, 2e-4, 5e-5, 1e-5] {
+            let found = equilibrium(&rod, &[], &accuracy(&rod, asked));
+            let error = (found.tip().truncate().length() / rod.length() - lean).abs();
+            assert_eq!(found.certificate.accuracy, AccuracyStatus::Met);
+            assert!(error < asked, "{excess} {asked}: {}", error / asked);
+        }
+    }
+}
+
+#[test]
+fn what_is_not_known_to_be_stable_has_no_estimate_of_its_error() {
+    // Both divisions stand, and do not differ; the rod leans by a fifth of its length.
+    let rod = straight(1.01 * GREENHILL, DVec3::Z);
+    let options = Options { estimate_error: true, ..elements(2, ElementKind::Auto) };
+    let found = equilibrium(&rod, &[], &options);
+    assert_ne!(found.certificate.stability, Stability::Stable);
+    assert_eq!(found.error_estimate, None);
+}
+
+#[test]
 fn the_stability_is_that_of_the_exact_rod() {
     // λ of the upright rod is 1 − Γ/Γ_c.
     for excess in [-1e-2_f64, -1e-4, -1e-6, -1e-9, 0.0, 1e-9] {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use common::{Case, accuracy, curl, elements, reference_cases, straight};
 use frisure_rod::{
-    ElementKind, Equilibrium, Load, NaturalStrain, Options, Rod, RodSpec, Root, Stability,
-    StrainProfile, equilibrium,
+    AccuracyStatus, ElementKind, Equilibrium, Load, NaturalStrain, Options, Rod, RodSpec, Root,
+    Stability, StrainProfile, equilibrium,
 };
 use glam::DVec3;
 
@@ -253,4 +253,48 @@ fn a_jump_of_the_natural_strain_is_within_the_accuracy_and_mostly_the_estimate()
         }
     }
     assert!(above * 20 <= all, "{above} of {all}");
+}
+
+/// A planar crimp of 512 waves in 10 cm without weight: its line is a quadrature. Elements that hold whole waves see a straight hair.
+#[test]
+fn waves_shorter_than_elements_are_resolved_or_told() {
+    let (length, waves, most) = (0.1, 512, 1148.0);
+    let half = length / (2 * waves) as f64;
+    let strain = |k: usize| if k.is_multiple_of(2) { most } else { -most };
+    let knots = (0..=2 * waves).map(|k| (half * k as f64, DVec3::X * strain(k))).collect();
+    let natural = NaturalStrain::Varying(StrainProfile::new(knots).unwrap());
+    let rod = Rod::new(RodSpec { length, natural, load: Load::NONE, ..curl() }).unwrap();
+    // The angle is a parabola within each half wave, from 0 over ±most half/4 to 0; Simpson's rule.
+    let steps = 1000;
+    let angle = |t: f64| most * half * t * (1.0 - t);
+    let projected: f64 = (0..=steps)
+        .map(|i| {
+            let weight = if i == 0 || i == steps { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+            weight * angle(f64::from(i) / f64::from(steps)).cos() / (3.0 * f64::from(steps))
+        })
+        .sum();
+    // Half waves turn to both sides in turn, so that what is across cancels in pairs.
+    let exact = length * projected;
+    for fraction in [1e-2, 1e-4, 1e-5, 1e-6] {
+        let rest = equilibrium(&rod, &[], &accuracy(&rod, fraction));
+        let error = (rest.tip().length() - exact).abs();
+        let estimate = rest.error_estimate.unwrap();
+        assert_eq!(rest.certificate.accuracy, AccuracyStatus::Met, "{fraction}");
+        assert!(
+            error <= estimate && estimate <= fraction * length,
+            "{fraction}: {error} {estimate}"
+        );
+    }
+}
+
+#[test]
+fn elements_too_few_for_the_curl_say_nothing_of_it() {
+    // 12 turns.
+    let rod = Rod::new(RodSpec { length: 0.4, ..curl() }).unwrap();
+    for (n, told) in [(1, false), (3, false), (15, false), (120, true)] {
+        let options = Options { estimate_error: true, ..elements(n, ElementKind::Auto) };
+        let rest = equilibrium(&rod, &[], &options);
+        let stable = rest.certificate.stability == Stability::Stable;
+        assert_eq!((stable, rest.error_estimate.is_some()), (told, told), "{n}");
+    }
 }

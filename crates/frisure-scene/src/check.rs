@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use frisure_hairstyle::styling::{Operation, StyleError};
-use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec, Range, number};
+use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec, MOST_ELEMENTS, Range, number};
 use frisure_rod::{InvalidQuantity, NaturalStrain, Options, Resolution, Rod, RodSpec, Root};
 use glam::DVec3;
 
@@ -44,19 +44,26 @@ impl Scene {
         Ok(self.spec.clone())
     }
 
-    /// Refuses a number of elements that are too long for the curl to feel the head: curls would hang inside it.
+    /// Refuses elements that are too long for the curl to feel the head: curls would hang inside it.
     fn check_division(&self) -> Result<(), SceneError> {
         let spec = &self.spec;
-        let (Resolution::Elements(given), true) =
-            (spec.equilibrium.resolution, spec.contact.body != Body::None)
-        else {
-            return Ok(());
-        };
-        let angle = spec.curl.strain.length() * spec.length.mean;
-        let needed = (angle / WIDEST_ELEMENT).ceil() as usize;
-        if given >= needed {
+        if spec.contact.body == Body::None {
             return Ok(());
         }
+        let angle = spec.curl.strain.length() * spec.length.mean;
+        let needed = (angle / WIDEST_ELEMENT).ceil() as usize;
+        let given = match spec.equilibrium.resolution {
+            Resolution::Elements(given) if given < needed => given,
+            Resolution::Accuracy(_) if needed > MOST_ELEMENTS => {
+                let longest = 1e2 * spec.length.mean * MOST_ELEMENTS as f64 / needed as f64;
+                let problem = format!(
+                    "hair of this length and natural curl follows the head with at least {needed} elements; a guide has at most {MOST_ELEMENTS}"
+                );
+                let hint = format!("make the hair shorter than {longest:.3} cm, or curl it less");
+                return Err(self.error_at("hair.curl", problem, &hint));
+            }
+            Resolution::Elements(_) | Resolution::Accuracy(_) => return Ok(()),
+        };
         let problem = format!(
             "`equilibrium.elements` is {given}; hair of this length and natural curl follows the head with at least {needed}"
         );

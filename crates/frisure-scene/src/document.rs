@@ -22,6 +22,9 @@ pub(crate) struct Document<'a> {
     numbers: BTreeMap<String, f64>,
 }
 
+/// What to try where gravity is written as a vector.
+const DIRECTION_OF_GRAVITY: &str = "`gravity` is a number; its direction is `down` of `[pose]`, such as `down = [0, 0, -1]` for a head that is upright";
+
 impl<'a> Document<'a> {
     /// Reads the TOML of a text, without numbers.
     ///
@@ -51,7 +54,13 @@ impl<'a> Document<'a> {
     }
 
     fn read_number(&self, path: &str, value: &Value, number: &Number) -> Result<f64> {
-        let value = (number.read)(value).map_err(|error| error.at_path(path, self.source))?;
+        let value = (number.read)(value).map_err(|error| {
+            let error = match (path, value) {
+                ("gravity", Value::Array(_)) => error.hint(DIRECTION_OF_GRAVITY),
+                _ => error,
+            };
+            error.at_path(path, self.source)
+        })?;
         match number.range {
             Some((range, true)) if !(range.min..=range.max).contains(&value) => {
                 Err(self.outside(path, range.allowed))
@@ -118,6 +127,22 @@ impl<'a> Document<'a> {
     /// The number of items of a list of tables.
     pub(crate) fn count_items(&self, path: &str) -> usize {
         self.value(path).and_then(Value::as_array).map_or(0, Vec::len)
+    }
+
+    /// Refuses a list of tables with more items than `most`, at the first that is too many.
+    pub(crate) fn check_items(
+        &self,
+        path: &str,
+        most: usize,
+        items: &str,
+        hint: &str,
+    ) -> Result<()> {
+        let count = self.count_items(path);
+        if count <= most {
+            return Ok(());
+        }
+        let problem = format!("{count} {items}; there are at most {most}");
+        Err(self.error(&format!("{path}[{most}]"), problem, hint))
     }
 
     /// The number at a path, if it is given (SI units).

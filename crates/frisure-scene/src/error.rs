@@ -128,6 +128,26 @@ pub(crate) fn shortened(mut text: String, most: usize) -> String {
     text
 }
 
+/// A text of the user's as a message quotes it: at most 200 characters, none of which commands a terminal.
+#[must_use]
+pub fn quoted(text: &str) -> String {
+    let start: String = text.chars().take(LONGEST_QUOTE + 1).collect();
+    shortened(escaped(&start, |_| false), LONGEST_QUOTE)
+}
+
+/// The text with control characters as escapes, but for those that are `kept`: a terminal takes them for commands.
+#[must_use]
+pub fn escaped(text: &str, kept: impl Fn(char) -> bool) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c.is_control() && !kept(c) {
+            true => out.extend(c.escape_default()),
+            false => out.push(c),
+        }
+    }
+    out
+}
+
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: {}", self.file, self.line, self.column, self.message())?;

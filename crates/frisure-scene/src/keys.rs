@@ -142,7 +142,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Natural twist.
         "hair.curl.tau" => number::<Strain>();
         /// Natural strains at increasing distances from the root, linear between them and constant
-        /// outside; for `frisure hair` only.
+        /// outside; for `frisure hair` only. At most 10000.
         "hair.curl.along[]" => table();
         /// Distance from the root along the hair; default 0.
         "hair.curl.along[].s" => number::<Length>();
@@ -238,7 +238,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// the head's left; within 6 cm. Default 2 cm.
         "implantation.parting" => value::<PartingPlace>()
             .options(Panel::Implantation, "Parting", "Where hair parts.");
-        /// Several partings, or ones drawn through points, instead of `parting`.
+        /// Several partings, or ones drawn through points, instead of `parting`; at most 32.
         "implantation.partings[]" => table();
         /// Where a straight one is, as `parting` says it.
         "implantation.partings[].at" => value::<PartingPlace>();
@@ -321,9 +321,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Part of the drag of a single hair in the open that acts on each hair; the other hairs shelter it. {}. Default 0.01, an estimate
         /// for a head; 1 is for one hair in the open.
         "wind.exposure" => number::<Ratio>();
-        /// What parts of the scalp have that the rest has not; later ones override earlier ones.
+        /// What parts of the scalp have that the rest has not; later ones override earlier ones. At most 1000.
         "region[]" => table();
-        /// Which part of the scalp, or a list of parts.
+        /// Which part of the scalp, or a list of at most 100 parts.
         "region[].where" => value::<Places>();
         /// Length along the fibre; {}. It changes at once at the region's border, as cut.
         "region[].length" => number::<Length>();
@@ -336,7 +336,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Factor on the natural curl; {}.
         "region[].curl" => number::<Ratio>();
         /// Parts of the hair that the salon works on one after the other, as layers of a picture: shown or not, locked or not. They
-        /// change neither hair nor pictures.
+        /// change neither hair nor pictures. At most 200.
         "section[]" => table();
         /// Its name; no other section has it.
         "section[].name" => value::<Text>();
@@ -600,7 +600,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "light.sun_elevation" => number::<Angle>().range(0.0, FRAC_PI_2, "between 0 and 90 deg");
         /// Haze of the daylight: 2 after rain, 3 clear, 6 hazy, 10 dull; {}. Default 3.
         "light.turbidity" => number::<Ratio>().range(1.9, 10.0, "between 1.9 and 10");
-        /// Further lamps. Each is far away, or at a place with `distance` or `position`.
+        /// Further lamps, at most 100. Each is far away, or at a place with `distance` or `position`.
         "light.lamp[]" => table();
         /// Where it stands: to the right of the camera, seen from the head; negative is to its left. {},
         /// default 0.

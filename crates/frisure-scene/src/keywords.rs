@@ -297,11 +297,18 @@ keywords! {
 /// Parts of the scalp: one word, or a list.
 pub(crate) struct Places;
 
+/// Most parts of the scalp of a region. Chosen: several times as many as there are.
+const MOST_PLACES: usize = 100;
+
 impl Kind for Places {
     type Value = Vec<Place>;
 
     fn read(value: &Value) -> Result<Vec<Place>, ValueError> {
         match value {
+            Value::Array(list) if list.len() > MOST_PLACES => {
+                let problem = format!("{} parts; there are at most {MOST_PLACES}", list.len());
+                Err(ValueError::because(problem).hint("name each part once"))
+            }
             Value::Array(list) => list.iter().map(OneOf::<Place>::read).collect(),
             one => OneOf::<Place>::read(one).map(|place| vec![place]),
         }
@@ -309,7 +316,10 @@ impl Kind for Places {
 
     fn schema() -> Schema {
         let word = OneOf::<Place>::schema();
-        json_schema!({ "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }] })
+        let list = json_schema!({
+            "type": "array", "items": word, "minItems": 1, "maxItems": MOST_PLACES,
+        });
+        json_schema!({ "anyOf": [word, list] })
     }
 }
 

@@ -50,7 +50,7 @@ mod write;
 
 pub use control::{OptionList, Panel, Slider, Unit};
 pub use declaration::Declaration;
-pub use error::{Diagnostic, SceneError};
+pub use error::{Diagnostic, SceneError, escaped, quoted};
 pub use frisure_files::head::{HeadFile, ScalpSource};
 pub use keywords::levels;
 pub use natural_look::NaturalLook;

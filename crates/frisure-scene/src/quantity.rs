@@ -172,7 +172,7 @@ pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
 /// The dimensions by their SI units; of speeds, that of growth.
-static ALL: [&Dimension; 11] = [
+static ALL: [&Dimension; 12] = [
     &LENGTH,
     &AREA,
     &ANGLE,
@@ -183,6 +183,7 @@ static ALL: [&Dimension; 11] = [
     &ACCELERATION,
     &TIME,
     &SPEED,
+    &VELOCITY,
     &RATIO,
 ];
 
@@ -274,9 +275,12 @@ impl Dimension {
         &ALL
     }
 
-    /// The dimension that a unit is SI's own unit of; the empty one is that of pure numbers.
-    pub(crate) fn of_si(unit: &str) -> Option<&'static Self> {
-        ALL.into_iter().find(|dimension| dimension.si == unit)
+    /// The dimension that a unit is SI's own unit of, the one with an example where there are several: wind and hair have
+    /// speeds in other units. The empty unit is that of pure numbers.
+    pub(crate) fn of_si(unit: &str, example: Option<&str>) -> Option<&'static Self> {
+        let mut of_unit = ALL.into_iter().filter(|dimension| dimension.si == unit);
+        let first = of_unit.clone().next();
+        of_unit.find(|dimension| Some(dimension.example) == example).or(first)
     }
 
     /// Units that can be written, the most usual first.
@@ -442,7 +446,7 @@ mod tests {
         // Months are no fraction.
         assert_eq!(in_range(&RATIO, "300", 0.0, 240.0), None);
         for d in ALL {
-            assert_eq!(Dimension::of_si(d.si), Some(d));
+            assert_eq!(Dimension::of_si(d.si, Some(d.example)), Some(d));
         }
     }
 

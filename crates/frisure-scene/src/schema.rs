@@ -88,12 +88,15 @@ pub(crate) struct Quantity {
 pub(crate) fn quantity(root: &'static Value, path: &str) -> Option<Quantity> {
     let key = path.split('.').try_fold(root, inside)?;
     // A list of quantities has their unit.
-    let single = |schema: &&&Value| schema["type"] != "array";
-    let unit = alternatives(key).iter().filter(single).find_map(|schema| schema["x-unit"].as_str());
-    let unit = if unit? == "a pure number" { "" } else { unit? };
+    let single = |schema: &Value| schema["type"] != "array";
+    let of = alternatives(key).into_iter().filter(|schema| single(schema));
+    let (unit, example) = of
+        .into_iter()
+        .find_map(|schema| Some((schema["x-unit"].as_str()?, &schema["examples"][0])))?;
+    let unit = if unit == "a pure number" { "" } else { unit };
     let bound = |name: &str| key[name].as_f64();
     let (min, max) = (bound("minimum"), bound("maximum"));
-    Some(Quantity { dimension: Dimension::of_si(unit)?, min, max })
+    Some(Quantity { dimension: Dimension::of_si(unit, example.as_str())?, min, max })
 }
 
 /// The schema of a part of a path such as `plane` or `any[1]`.

@@ -204,9 +204,14 @@ impl Diagnostic {
 impl ValueError {
     /// The error about the value at a path such as `step[1].cut.below`.
     pub(crate) fn at_path(self, path: &str, source: &Source) -> SceneError {
-        let Self { allowed, hint, problem, value, inside, in_key } = self;
-        let key = format!("{path}{inside}");
-        let span = if in_key { source.locate_key(&key) } else { source.locate(&key) };
+        let key = format!("{path}{}", self.inside);
+        let span = if self.in_key { source.locate_key(&key) } else { source.locate(&key) };
+        self.at(key, source, span)
+    }
+
+    /// The error about the value of a key at a position.
+    pub(crate) fn at(self, key: String, source: &Source, span: Range<usize>) -> SceneError {
+        let Self { allowed, hint, problem, value, .. } = self;
         let value = value.map_or_else(|| source.slice(span.clone()).to_owned(), String::from);
         let diagnostic = Diagnostic { problem, ..Diagnostic::outside(allowed) };
         diagnostic.hint(hint).key(key).value(value).at(source, span)

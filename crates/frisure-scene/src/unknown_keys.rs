@@ -109,6 +109,11 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Whether the table at a path is within a step.
+    fn is_in_step(&self, path: &str) -> bool {
+        self.is_step("") || path.starts_with("step[")
+    }
+
     fn unknown(&self, name: &str, path: &str, schema: &Value) -> Diagnostic {
         let place = if path.is_empty() { String::new() } else { format!(" in `[{path}]`") };
         let quoted = shortened(name.to_owned(), LONGEST_QUOTE);
@@ -137,6 +142,8 @@ impl<'a> Walk<'a> {
         // The right key in the wrong table, if it is nearer than those of this one.
         let elsewhere = || match is_step {
             true => elsewhere(name, schema, here),
+            // What an operation takes is in its own table.
+            false if self.is_in_step(path) => None,
             false => elsewhere(name, self.root, here),
         };
         if let Some(places) = elsewhere() {

@@ -53,7 +53,7 @@ fn use_file(name: &str, bytes: &[u8], read: impl FnOnce(&Path)) {
 }
 
 fn use_head(bytes: &[u8]) {
-    let frame = FrameChoice { metres: Some(0.1), up: None };
+    let frame = FrameChoice { metres: Some(0.1), ..FrameChoice::default() };
     use_file("head.obj", bytes, |path| {
         for scalp in
             [ScalpSource::Guess, ScalpSource::Group("g".into()), ScalpSource::Colour("red".into())]
@@ -299,6 +299,14 @@ fn elements_too_long_for_the_curl_are_refused_with_the_number_that_suffices() {
     assert!(spec(26, "").is_err() && spec(27, "").is_ok());
     // Without a head the elements are exact helices.
     assert!(spec(1, "[contact]\nbody = \"none\"").is_ok());
+    // Nor by an accuracy that takes more elements than a guide has.
+    let coil = |length: &str| {
+        let text = format!("[hair]\nlength = \"{length}\"\ncurl = {{ kappa1 = 20000 }}\n");
+        Scene::parse("coil", text, Path::new(""))?.hairstyle_spec()
+    };
+    let error = coil("20 cm").unwrap_err().to_string();
+    assert!(error.contains("at most 512") && error.contains("shorter than 4.0"), "{error}");
+    assert!(coil("4 cm").is_ok());
 }
 
 #[test]

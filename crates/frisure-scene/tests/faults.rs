@@ -464,6 +464,9 @@ fn a_bare_number_out_of_range_is_told_its_unit() {
             "a number without quotes is in m/s; did you mean \"1.2 cm/month\"?",
         ),
         ("wisps.flyaways = 5", "did you mean \"5 %\"?"),
+        // Wind is not as slow as hair grows.
+        ("wind.speed = 200", "a number without quotes is in m/s; did you mean \"200 km/h\"?"),
+        ("wind.speed = -1", "a number without quotes is in m/s; write a unit, as in \"5 m/s\""),
         // Neither is a unit.
         ("hair.length = '25 m'", ""),
         ("wisps.count = 0", ""),
@@ -479,6 +482,11 @@ fn a_key_of_another_table_is_told_where_it_belongs() {
         ("length = '20 cm'", "there is a `hair.length`"),
         ("[head]\nflayaways = 0.1", "did you mean `wisps.flyaways`?"),
         ("ligth = {}", "did you mean `light`?"),
+        ("[[step]]\ntie.at = 'nape'", "known keys: braided, to, where"),
+        (
+            "gravity = [0, 0, -9.81]",
+            "`gravity` is a number; its direction is `down` of `[pose]`, such as `down = [0, 0, -1]` for a head that is upright",
+        ),
     ] {
         assert_eq!(diagnostic(text).hint, place, "{text}");
     }
@@ -517,6 +525,63 @@ fn more_steps_than_a_day_in_the_salon_has_are_refused() {
     let told = diagnostic(&steps(10_001)).to_string();
     assert!(told.contains("there are 10001 steps; 10000 are possible"), "{told}");
     assert!(parse(&steps(10_000)).is_ok());
+}
+
+/// The text of a scene with a list of so many items, the most of them, and what they are called.
+type ListCase<'a> = (&'a dyn Fn(usize) -> String, usize, &'static str);
+
+/// A list of so many tables.
+fn tables(list: &'static str, item: &'static str) -> impl Fn(usize) -> String {
+    move |count| format!("[[{list}]]\n{item}\n").repeat(count)
+}
+
+/// A step on a choice with so many items.
+fn choice(start: &'static str, item: &'static str, end: &'static str) -> impl Fn(usize) -> String {
+    move |count| format!("[[step]]\nwet.where = {start}{}{end}", item.repeat(count))
+}
+
+#[test]
+fn lists_longer_than_a_person_writes_are_refused_at_once() {
+    let knots = |count: usize| {
+        let knots: Vec<String> =
+            (0..count).map(|s| format!("{{s = {}}}", 1e-4 * s as f64)).collect();
+        format!("hair.curl.along = [{}]", knots.join(", "))
+    };
+    let cases: [ListCase<'_>; 12] = [
+        (&tables("implantation.partings", "at = 'middle'"), 32, "partings"),
+        (&tables("region", "where = 'top'"), 1000, "regions"),
+        (&tables("light.lamp", "azimuth = 0\nelevation = 0"), 100, "lamps"),
+        (&knots, 10_000, "knots"),
+        (&|count| format!("[[region]]\nwhere = [{}]", "'top',".repeat(count)), 100, "parts"),
+        (&choice("[", "'top',", "]"), 1000, "choices of wisps in all"),
+        (&choice("{any=[", "'top',", "]}"), 999, "choices of wisps in all"),
+        (&choice("{all=[", "{not='top'},", "]}"), 499, "choices of wisps in all"),
+        (&choice("{wisps=[", "1,", "]}"), 100_000, "wisps"),
+        (&choice("{brush={radius=0.01,at=[", "[0,0],", "]}}"), 10_000, "places"),
+        (
+            &choice(
+                "{lasso={camera={eye=[0,-1,0],target=[0,0,0],field_of_view=1,aspect=1},polygon=[",
+                "[0,0],",
+                "]}}",
+            ),
+            10_000,
+            "corners",
+        ),
+        (
+            &|count| {
+                let section = |i| format!("[[section]]\nname = '{i}'\nwhere = 'top'\n");
+                (0..count).map(section).collect()
+            },
+            200,
+            "sections",
+        ),
+    ];
+    for (text, most, what) in cases {
+        let told = diagnostic(&text(most + 1)).to_string();
+        assert!(told.contains(what) && told.contains("there are at most"), "{told}");
+        assert!(told.contains(" ("), "no hint: {told}");
+        parse(&text(most)).unwrap_or_else(|e| panic!("{most} {what}: {e}"));
+    }
 }
 
 #[test]

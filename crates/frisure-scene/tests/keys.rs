@@ -170,6 +170,8 @@ fn what_cannot_be_said_is_refused_with_its_place() {
     assert!(matches!(set_key(SCENE, "hair.length", "20 cm"), Err(EditError::Value { .. })));
     assert!(matches!(set_key(SCENE, "hair", "1"), Err(EditError::NoPlace { .. })));
     assert!(matches!(set_key(SCENE, "", "1"), Err(EditError::NoPlace { .. })));
+    let deep = set_key(SCENE, &["a"; 30_000].join("."), "1");
+    assert!(matches!(deep, Err(EditError::Deep { .. })));
     assert!(set_key(SCENE, "name.x", "1").is_err());
     // A scene that is wrong can be mended.
     assert!(set_key("[hair]\nlength = 90\n", "hair.length", "0.2").is_ok());

@@ -197,7 +197,10 @@ fn every_key_arrives() {
 
     let HeadSource::Mesh(head) = &scene.head else { panic!("a mesh was given") };
     assert_eq!(head.path, Path::new("scenes/a/head.obj"));
-    assert_eq!(head.frame, FrameChoice { metres: Some(0.01), up: Some(UpAxis::Z) });
+    assert_eq!(
+        head.frame,
+        FrameChoice { metres: Some(0.01), up: Some(UpAxis::Z), ..FrameChoice::default() }
+    );
     assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
     assert_eq!(scene.look.skin.colour, linear_from_srgb([1.0, 128.0 / 255.0, 0.0]));
     assert_eq!(scene.look.backdrop, Backdrop::Colour(linear_from_srgb([0.0, 0.5, 1.0])));

@@ -58,6 +58,18 @@ pub(crate) fn two_curls(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuant
     Ok(RodSpec { natural: NaturalStrain::Varying(StrainProfile::new(knots)?), ..spec })
 }
 
+/// Fibres of the length and thickness of hair that hardly resist twist, up to thirteen times as wide as thick.
+pub(crate) fn soft_in_twist(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuantity> {
+    let spec = realistic(random)?;
+    let young = spec.material.youngs_modulus();
+    let diameter = random.between(45e-6, 110e-6);
+    Ok(RodSpec {
+        section: Section::from_diameter(diameter, random.decades(1.0, 13.0))?,
+        material: Material::new(young, young * random.decades(1e-4, 3e-3), 1300.0)?,
+        ..spec
+    })
+}
+
 /// Absurd hair: from a bristle of a millimetre to ten metres of thread, rubber to
 /// diamond, weightless to the surface of a dwarf star, curled up to forty times.
 pub(crate) fn absurd(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuantity> {

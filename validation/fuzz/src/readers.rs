@@ -89,7 +89,7 @@ fn groom_targets() -> impl Iterator<Item = Target> {
 fn use_head(bytes: &[u8]) {
     let mut files = Files::default();
     files.provide("head", bytes);
-    let frame = FrameChoice { metres: Some(0.1), up: None };
+    let frame = FrameChoice { metres: Some(0.1), up: None, ..FrameChoice::default() };
     let path = PathBuf::from("head");
     for scalp in [
         ScalpSource::Guess,
@@ -106,7 +106,7 @@ fn use_environment(bytes: &[u8]) {
     for name in ["a.hdr", "a.exr"] {
         let mut files = Files::default();
         files.provide(name, bytes);
-        let _ = environment::read(Path::new(name), &files);
+        let _ = environment::read(Path::new(name), &files, usize::MAX);
     }
 }
 

@@ -42,6 +42,11 @@ pub(crate) fn encode(batch: &Batch, rows: &[Row]) -> Result<Vec<u8>, String> {
     write(&heads::columns(batch, rows), properties).map_err(|e| e.to_string())
 }
 
+/// The names of the columns of a part.
+pub(crate) fn column_names(batch: &Batch) -> Vec<String> {
+    heads::columns(batch, &[]).into_iter().map(|column| column.name).collect()
+}
+
 /// What every file says of its batch.
 fn about(batch: &Batch) -> Vec<KeyValue> {
     vec![

@@ -44,7 +44,7 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
     let to_do = missing.iter().map(|part| part.heads).sum::<usize>();
     let before = own - to_do;
     if !quiet {
-        console::print(&header(run.batch().views(), shard, own, all, before))?;
+        console::say(&header(run.batch().views(), shard, own, all, before))?;
     }
     let progress = Bar::new(quiet);
     let done = AtomicUsize::new(0);
@@ -64,12 +64,12 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
         let path = interrupt::writing(|| run.write(*part, &rows))?;
         totals.add(&rows);
         let (parts, failed) = (missing.len(), failures(&rows));
-        let line = format!("{} of {parts}: {}{failed}\n", place + 1, path.display());
-        progress.suspend(|| if quiet { Ok(()) } else { console::print(&line) })?;
+        let line = format!("{} of {parts}: {}{failed}\n", place + 1, console::shown(&path));
+        progress.suspend(|| if quiet { Ok(()) } else { console::say(&line) })?;
     }
     drop(progress);
     if !quiet {
-        console::print(&totals.summary(own))?;
+        console::say(&totals.summary(own))?;
     }
     Ok(ExitStatus::Success)
 }

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &args::Cards, quiet: bool) -> Result<ExitStatus, Er
     }
     drop(progress);
     if !quiet {
-        console::print(&summary(&cards, strands.len(), &written))?;
+        console::say(&summary(&cards, strands.len(), &written))?;
     }
     Ok(ExitStatus::Success)
 }
@@ -111,7 +111,7 @@ fn summary(cards: &Cards, strands: usize, written: &[PathBuf]) -> String {
         );
     }
     for path in written {
-        let _ = writeln!(text, "wrote {}", path.display());
+        let _ = writeln!(text, "wrote {}", console::shown(path));
     }
     text
 }

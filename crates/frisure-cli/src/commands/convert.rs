@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &Convert, quiet: bool) -> Result<ExitStatus, Error>
     drop(progress);
     if !quiet {
         let lines: String = written.iter().map(|line| format!("wrote {line}\n")).collect();
-        console::print(&(found + &lines))?;
+        console::say(&(found + &lines))?;
     }
     Ok(ExitStatus::Success)
 }

@@ -8,6 +8,7 @@ use frisure::fit::{
     Entry, Estimate, Fibre, Fit, FitStatus, Known, NamedFibre, Options, Pose, STANDARD_GRAVITY,
     fit, html, json, read_table,
 };
+use frisure::scene::quoted;
 use frisure_engine::Error;
 use glam::DVec3;
 
@@ -48,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments, quiet: bool) -> Result<ExitStatus, Erro
         outputs::write_text(report, &text)?;
     }
     if !quiet {
-        console::print(&summary(&entries))?;
+        console::say(&summary(&entries))?;
     }
     let all = fits.iter().all(|fit| fit.status == FitStatus::Fitted);
     Ok(if all { ExitStatus::Success } else { ExitStatus::NotConverged })
@@ -167,7 +168,7 @@ fn summary(entries: &[Entry<'_>]) -> String {
     let mut text = String::new();
     for entry in entries.iter().take(PRINTED) {
         let fit = entry.fit;
-        let _ = writeln!(text, "fibre {}: {}", entry.name, numbers(fit));
+        let _ = writeln!(text, "fibre {}: {}", quoted(entry.name), numbers(fit));
         for said in fit.statements() {
             let _ = writeln!(text, "  {said}");
         }

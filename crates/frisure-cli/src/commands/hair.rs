@@ -59,9 +59,16 @@ pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
         false => table(&report, rest.certificate.stability),
     };
     console::print(&text)?;
+    let given = matches!(hair.options.resolution, Resolution::Elements(_));
+    if given && rest.certificate.stability == Stability::Undecided {
+        console::note(
+            "so many elements do not tell whether it is stable; write more of them, or `accuracy` in `[equilibrium]` instead",
+        );
+    }
     Ok(match (rest.certificate.stability, rest.certificate.accuracy) {
-        (Stability::NotConverged, _) => ExitStatus::NotConverged,
-        (_, AccuracyStatus::Missed) => ExitStatus::AccuracyMissed,
+        // On a saddle a hair is not at rest.
+        (Stability::NotConverged | Stability::Saddle, _) => ExitStatus::NotConverged,
+        (Stability::Undecided, _) | (_, AccuracyStatus::Missed) => ExitStatus::Uncertain,
         (_, AccuracyStatus::Met | AccuracyStatus::NotRequested) => ExitStatus::Success,
     })
 }

@@ -7,8 +7,8 @@ use frisure::formats::picture::png;
 use frisure::measure::{
     Abstention, GivenFibre, Measurement, Options, Outcome, Photo, draw, measure, scene, table,
 };
-use frisure_engine::Error;
 use frisure_engine::photo::KnownFibre;
+use frisure_engine::{Error, memory};
 use serde::Serialize;
 
 use super::parse_scene;
@@ -35,7 +35,11 @@ pub(crate) fn run(arguments: &Arguments, quiet: bool) -> Result<ExitStatus, Erro
     outputs::prepare(&written, &[&arguments.photo])?;
     check_extensions(arguments)?;
     let options = options(arguments)?;
-    let pixels = read(&arguments.photo).map_err(|e| match e {
+    let most = memory::room(memory::PHOTO_PIXEL, 0.0);
+    let pixels = read(&arguments.photo, most).map_err(|e| match e {
+        PhotoReadError::Large { .. } => {
+            Error::because(&e, "give the part with the lock alone, or save it smaller")
+        }
         PhotoReadError::Damaged { .. } => {
             Error::because(&e, "copy it from the camera again, or save it anew as .png")
         }
@@ -106,7 +110,7 @@ fn report(arguments: &Arguments, outcome: &Outcome, quiet: bool) -> Result<(), E
         })?);
     }
     match &outcome.result {
-        Ok(found) if !quiet => console::print(&table(found, arguments.hang.into())),
+        Ok(found) if !quiet => console::say(&table(found, arguments.hang.into())),
         Ok(_) => Ok(()),
         Err(why) => {
             console::note(&format!("not measured: {why}\nhelp: {}", why.hint()));

@@ -24,7 +24,7 @@ use std::path::Path;
 use frisure::files;
 use frisure::formats::groom::{self, Groom};
 use frisure::scene::{MAX_SIZE, Scene};
-use frisure_engine::Error;
+use frisure_engine::{Error, memory};
 
 use crate::args::Axes;
 use crate::console;
@@ -69,6 +69,7 @@ fn read_text(path: &Path) -> Result<String, Error> {
 
 /// The groom in a file; `hint` names the flags for its unit and axes.
 fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
+    memory::check_groom(path)?;
     let read = groom::read_groom(path, axes.choice())
         .map_err(|e| Error::because(&e, if e.may_be_of_unit() { hint } else { "" }))?;
     if read.strands().is_empty() {

@@ -146,7 +146,7 @@ impl GroomPicture<'_> {
         drop(progress);
         if !quiet {
             let lines: String = lines.iter().map(|line| format!("wrote {line}\n")).collect();
-            console::print(&lines)?;
+            console::say(&lines)?;
         }
         Ok(ExitStatus::Success)
     }

@@ -5,6 +5,7 @@ use std::fs::{File, TryLockError};
 use std::path::Path;
 use std::time::Duration;
 
+use frisure::formats::groom::Format;
 use frisure::hairstyle::styling::Operation;
 use frisure::scene::edit::{self, EditError};
 use frisure::scene::{parse_step, write_step};
@@ -20,12 +21,13 @@ const STEP: &str = "--step";
 
 /// Changes the steps of a scene as the arguments say, or lists them.
 pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
+    check_output(arguments.output.as_deref())?;
     let _lock = lock_folder(&arguments.scene)?;
     let text = read_text(&arguments.scene)?;
     // An error in the scene itself is shown with its name and line.
     let scene = parse_scene(&arguments.scene, text.clone())?;
     if arguments.list {
-        console::print(&list(scene.steps()))?;
+        console::say(&list(scene.steps()))?;
         return Ok(ExitStatus::Success);
     }
     let read = |step: &String| parse_step(STEP, step.as_str());
@@ -39,9 +41,24 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
     write(output, &text)?;
     if !quiet && !is_standard(output) {
         let left = arguments.remove.map_or(0, |_| 1);
-        console::print(&summary(output, scene.steps().len() + steps.len() - left))?;
+        console::say(&summary(output, scene.steps().len() + steps.len() - left))?;
     }
     Ok(ExitStatus::Success)
+}
+
+/// Checks that what is written is named as a scene is: it would replace a groom or a picture of that name.
+fn check_output(output: Option<&Path>) -> Result<(), Error> {
+    let Some(path) = output.filter(|path| !is_standard(path)) else { return Ok(()) };
+    if path.extension().is_some_and(|found| found.eq_ignore_ascii_case("toml")) {
+        return Ok(());
+    }
+    let is_groom = Format::of(path).is_ok();
+    let path = path.display();
+    let hint = match is_groom {
+        true => format!("`frisure predict SCENE -o {path}` writes the hair of a scene"),
+        false => "`-o` writes the scene: give it a name such as `styled.toml`".to_owned(),
+    };
+    Err(Error::invalid(format!("`{path}` does not end in .toml, as a scene does"), &hint))
 }
 
 /// Waits until no other `frisure style` edits a scene of this folder, where folders can be locked:
@@ -124,5 +141,5 @@ fn summary(path: &Path, count: usize) -> String {
         1 => "1 step".to_owned(),
         count => format!("{count} steps"),
     };
-    format!("{} has {steps}\n", path.display())
+    format!("{} has {steps}\n", console::shown(path))
 }

@@ -17,7 +17,7 @@ use crate::{console, interrupt, outputs};
 /// Runs the experiments and writes the report, also where a criterion fails.
 pub(crate) fn run(arguments: &Validate, quiet: bool) -> Result<ExitStatus, Error> {
     if arguments.list {
-        console::print(&list())?;
+        console::say(&list())?;
         return Ok(ExitStatus::Success);
     }
     let Validate { experiments: names, full, output, .. } = arguments;
@@ -36,11 +36,11 @@ pub(crate) fn run(arguments: &Validate, quiet: bool) -> Result<ExitStatus, Error
     let written = interrupt::writing(|| book.write(output));
     if !quiet {
         // Even if the report cannot be written, the result of minutes of work is printed.
-        console::print(&summary(&book))?;
+        console::say(&summary(&book))?;
     }
     let page = written.map_err(|e| Error::failed(&e, ""))?;
     if !quiet {
-        console::print(&format!("wrote {}\n", page.display()))?;
+        console::say(&format!("wrote {}\n", console::shown(&page)))?;
     }
     Ok(if book.holds() { ExitStatus::Success } else { ExitStatus::CriterionFailed })
 }

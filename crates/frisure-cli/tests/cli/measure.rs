@@ -89,19 +89,28 @@ fn what_the_photo_does_not_tell_has_an_exit_status_and_a_reason() {
     assert!(!room.names().contains(&"mine.toml".to_owned()));
 }
 
+/// The beginning of a PNG of 20000 by 20000 pixels.
+const HUGE: &[u8] = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20\x08\x02\0\0\0\x6c\x12\xd1\x6e\0\0\0\0IDAT\x35\xaf\x06\x1e";
+
 #[test]
 fn wrong_input_is_told_with_file_range_and_hint() {
     let room = Room::new()
         .with("lock.png", photo(30.0, 110.0))
         .with("text.png", "no picture")
         .with("cut.png", &photo(30.0, 110.0)[..200])
+        .with("huge.png", HUGE)
         .with("cut.jpg", [0xff, 0xd8, 0xff, 0xe0, 0, 16])
         .with("dot.png", encode(1, 1, &[0; 4]).unwrap());
     let scale = ["--scale", "10 px/mm"];
-    let cases: [(&str, &[&str], &[&str]); 14] = [
+    let cases: [(&str, &[&str], &[&str]); 15] = [
         ("none.png", &scale, &["none.png", "there is no file"]),
         ("text.png", &scale, &["text.png: it is neither PNG nor JPEG", ".jpg"]),
         ("cut.png", &scale, &["cut.png: "]),
+        (
+            "huge.png",
+            &scale,
+            &["20000 x 20000 pixels are too many", "160000000", "save it smaller"],
+        ),
         ("cut.jpg", &scale, &["cut.jpg: "]),
         ("dot.png", &scale, &["dot.png: 1 x 1 pixels are too few", "32 x 32"]),
         ("lock.png", &["--scale", "10"], &["no unit", "52 px/mm"]),

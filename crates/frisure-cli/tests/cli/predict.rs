@@ -591,22 +591,61 @@ fn a_groom_that_lies_elsewhere_is_refused_with_the_lines_that_place_it() {
         }
     };
     let moved: Vec<String> = text.lines().map(elsewhere).collect();
-    let scene = format!("{QUICK}[groom]\nfile = \"b.obj\"\n");
-    let room = room.with("b.obj", moved.join("\n")).with("huge.toml", &scene);
-    let huge = room.run(&["predict", "huge.toml", "-o", "c.hair"]);
-    assert!(huge.err.contains("is it in cm?"), "{}", huge.err);
-    let scene = format!("{scene}unit = \"cm\"\n");
-    let room = room.with("groomed.toml", &scene);
-    let refused = room.run(&["predict", "groomed.toml", "-o", "c.hair"]);
-    assert_eq!(refused.code, Some(2), "{}", refused.err);
-    assert!(refused.err.contains("as if it were in inches, turned and moved"), "{}", refused.err);
-    let is_line = |line: &&str| ["scale = ", "turn = ", "move = "].iter().any(|k| line.contains(k));
-    let lines: Vec<&str> = refused.err.lines().filter(is_line).map(str::trim).collect();
-    assert!(!lines.is_empty(), "{}", refused.err);
-    let room = room.with("placed.toml", format!("{scene}{}\n", lines.join("\n")));
-    let ran = room.run(&["predict", "placed.toml", "-o", "c.hair"]);
-    // A strand of so few points may not come to rest; all are where they were.
-    assert!(matches!(ran.code, Some(0 | 3)) && ran.err.is_empty(), "{lines:?}: {}", ran.err);
-    assert!(ran.out.contains("wrote c.hair"), "{}", ran.out);
-    assert_eq!(lines, ["scale = 2.54", "turn = [0, 0, -90]", "move = [0, 1.7783, 3.0483]"]);
+    // The same in no unit at all.
+    let scaled = |line: &str| match line.strip_prefix("v ") {
+        None => line.to_owned(),
+        Some(numbers) => {
+            let p: Vec<f64> = numbers.split(' ').map(|x| x.parse().unwrap()).collect();
+            format!("v {} {} {}", 37.0 * p[0], 37.0 * p[1], 37.0 * p[2])
+        }
+    };
+    let scaled: Vec<String> = text.lines().map(scaled).collect();
+    let mut room = room.with("b.obj", moved.join("\n")).with("no-unit.obj", scaled.join("\n"));
+    let moved = Some("in inches, turned and moved");
+    for (file, unit, words, lines) in [
+        (
+            "b.obj",
+            "",
+            moved,
+            ["scale = 0.0254", "turn = [0, 0, -90]", "move = [0, 1.7783, 3.0483]"],
+        ),
+        (
+            "b.obj",
+            "cm",
+            moved,
+            ["scale = 2.54", "turn = [0, 0, -90]", "move = [0, 1.7783, 3.0483]"],
+        ),
+        (
+            "b.obj",
+            "mm",
+            moved,
+            ["scale = 25.4", "turn = [0, 0, -90]", "move = [0, 1.7783, 3.0483]"],
+        ),
+        (
+            "b.obj",
+            "dm",
+            moved,
+            ["scale = 0.254", "turn = [0, 0, -90]", "move = [0, 1.7783, 3.0483]"],
+        ),
+        ("no-unit.obj", "", None, ["scale = 0.027", "", "move = [0, "]),
+    ] {
+        let unit = if unit.is_empty() { String::new() } else { format!("unit = \"{unit}\"\n") };
+        let scene = format!("{QUICK}[groom]\nfile = \"{file}\"\n{unit}");
+        room = room.with("groomed.toml", &scene);
+        let refused = room.run(&["predict", "groomed.toml", "-o", "c.hair"]);
+        assert_eq!(refused.code, Some(2), "{}", refused.err);
+        assert!(refused.err.contains(words.unwrap_or("times too large")), "{}", refused.err);
+        let is_line =
+            |line: &&str| ["scale = ", "turn = ", "move = "].iter().any(|k| line.contains(k));
+        let said: Vec<&str> = refused.err.lines().filter(is_line).map(str::trim).collect();
+        let expected = lines.iter().filter(|line| !line.is_empty());
+        let is_as_expected = said.iter().zip(expected.clone()).all(|(a, b)| a.starts_with(b));
+        assert!(is_as_expected && said.len() == expected.count(), "{}", refused.err);
+        // Fewer guides, for time.
+        room = room.with("placed.toml", format!("{scene}{}\nguides = 8\n", said.join("\n")));
+        let ran = room.run(&["predict", "placed.toml", "-o", "c.hair"]);
+        // A strand of so few points may not come to rest; all are where they were.
+        assert!(matches!(ran.code, Some(0 | 3)) && ran.err.is_empty(), "{said:?}: {}", ran.err);
+        assert!(ran.out.contains("wrote c.hair"), "{}", ran.out);
+    }
 }

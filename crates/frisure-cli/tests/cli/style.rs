@@ -127,3 +127,22 @@ fn several_at_once_lose_no_step() {
     let text = fs::read_to_string(room.path("scene.toml")).unwrap();
     assert_eq!(text.matches("dry = {}").count(), 8, "{text}");
 }
+
+#[test]
+fn a_scene_does_not_replace_a_groom_or_a_picture() {
+    let room = room().with("gg.hair", "hair").with("a.png", "picture");
+    let before = text(&room, "a.toml");
+    for (output, hint) in [
+        ("gg.hair", "`frisure predict SCENE -o gg.hair`"),
+        ("new.usda", "`frisure predict SCENE -o new.usda`"),
+        ("a.png", "`-o` writes the scene"),
+        ("scene", "such as `styled.toml`"),
+    ] {
+        let ran = room.run(&["style", "a.toml", "--step", "wet = {}", "-o", output]);
+        assert_eq!(ran.code, Some(2), "{}", ran.err);
+        assert!(ran.err.contains(&format!("`{output}` does not end in .toml")), "{}", ran.err);
+        assert!(ran.err.contains(hint), "{}", ran.err);
+    }
+    assert_eq!((text(&room, "gg.hair"), text(&room, "a.toml")), ("hair".to_owned(), before));
+    assert!(!room.path("new.usda").exists() && !room.path("scene").exists());
+}

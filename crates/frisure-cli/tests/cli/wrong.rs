@@ -143,15 +143,65 @@ fn scenes_that_are_no_files() {
 #[test]
 fn more_threads_than_a_machine_has_are_refused() {
     let room = room();
-    for (threads, code, part) in
-        [("999999", 2, "`RAYON_NUM_THREADS` asks for 999999 threads"), ("2", 0, "")]
-    {
+    for (threads, code, part) in [
+        ("999999", 2, "`RAYON_NUM_THREADS` asks for 999999 threads"),
+        ("abc", 2, "`RAYON_NUM_THREADS` is \"abc\"; it must be a whole number of threads, at most"),
+        ("-1", 2, "it must be a whole number"),
+        ("", 0, ""),
+        ("2", 0, ""),
+    ] {
         let ran = room.command(&["hair", "quick.toml"]).env("RAYON_NUM_THREADS", threads).output();
         let ran = ran.unwrap();
         let err = String::from_utf8_lossy(&ran.stderr);
         assert_eq!(ran.status.code(), Some(code), "{err}");
         assert!(err.contains(part), "{err}");
     }
+}
+
+#[test]
+fn names_command_no_terminal_and_fill_no_screen() {
+    let name = r#"name = "\u001b[31mred\u0007\n\u001b]0;title\u0007\u009b\u007f\tend""#;
+    let long = format!("name = \"{}\"", "a".repeat(1 << 20));
+    let room = room()
+        .with("a.toml", format!("{name}\n{QUICK}"))
+        .with("long.toml", format!("{long}\n{QUICK}"));
+    let ran = room.run(&["predict", "a.toml"]);
+    let shown = r"\u{1b}[31mred\u{7}\n\u{1b}]0;title\u{7}\u{9b}\u{7f}\tend: ";
+    assert!(ran.code == Some(0) && ran.out.starts_with(shown), "{}", ran.out.escape_debug());
+    let ran = room.run(&["predict", "long.toml"]);
+    assert!(ran.code == Some(0) && ran.out.len() < 1000, "{} bytes", ran.out.len());
+    assert!(ran.out.contains("aaa…: "), "{}", ran.out);
+    // Names of files: of every kind that is written.
+    #[cfg(unix)]
+    {
+        let files = ["o\u{1b}[2J.hair", "i\u{7}\n.png", "r\u{9b}.json"];
+        let ran = room
+            .run(&["predict", "a.toml", "-o", files[0], "--image", files[1], "--report", files[2]]);
+        let lines: Vec<&str> = ran.out.lines().filter(|line| line.starts_with("wrote ")).collect();
+        assert_eq!(lines.len(), 3, "{}", ran.out);
+        let ran_convert = room.run(&["convert", files[0], "-o", "c\u{1b}.obj"]);
+        let ran_style = room.run(&["style", "a.toml", "--step", "wet = {}", "-o", "s\u{1b}.toml"]);
+        for ran in [ran, ran_convert, ran_style] {
+            assert_eq!(ran.code, Some(0), "{}", ran.err);
+            let commands = |c: char| c.is_control() && c != '\n';
+            assert!(!(ran.out + &ran.err).contains(commands));
+        }
+    }
+}
+
+/// The system ends a program at the limit of files, if it does not ask for an error.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_beyond_the_limit_is_an_error_and_leaves_nothing() {
+    let room = room();
+    let program = env!("CARGO_BIN_EXE_frisure");
+    let line = format!("ulimit -f 1; exec {program} predict quick.toml -o a.obj");
+    let mut shell = std::process::Command::new("sh");
+    let ran = shell.current_dir(room.path("")).args(["-c", &line]).output().unwrap();
+    let err = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(1), "{err}");
+    assert!(err.contains("`a.obj`") && err.contains("too large"), "{err}");
+    assert_eq!(room.names(), ["quick.toml"]);
 }
 
 #[cfg(target_os = "linux")]

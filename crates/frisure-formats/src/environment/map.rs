@@ -14,12 +14,17 @@ pub struct Environment {
     pub pixels: Vec<[f32; 3]>,
 }
 
-/// Refuses sizes that no environment has.
-pub(super) fn check_size(width: usize, height: usize) -> Result<(), String> {
+/// Refuses sizes that no environment has, and more pixels than `most`, for which there is memory.
+pub(super) fn check_size(width: usize, height: usize, most: usize) -> Result<(), String> {
     let [across, down] = MOST;
     if width > across || height > down {
         return Err(format!(
             "has {width} x {height} pixels; an environment has at most {across} x {down}"
+        ));
+    }
+    if width * height > most {
+        return Err(format!(
+            "has {width} x {height} pixels; at most {most} have room in the memory that is free"
         ));
     }
     // Programs differ by a pixel.

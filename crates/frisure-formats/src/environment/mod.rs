@@ -55,6 +55,9 @@ impl EnvironmentError {
             Self::Broken { problem, .. } if problem.contains("twice as wide") => {
                 "convert it to an equirectangular (latitude-longitude) picture"
             }
+            Self::Broken { problem, .. } if problem.contains("have room") => {
+                "a map of 4096 x 2048 pixels has all the light that hair shows; make this one smaller"
+            }
             _ => "",
         }
     }
@@ -67,12 +70,12 @@ fn is_of_screens(path: &Path) -> bool {
     endings.contains(&ending.as_str())
 }
 
-/// Reads an environment; its name says which format.
+/// Reads an environment of at most `most` pixels, such as there is memory for; its name says which format.
 ///
 /// # Errors
 /// [`EnvironmentError`], also for a picture that is not twice as wide as it is high, larger than 16 384 ×
 /// 8192, or that has light below zero, above 1e12 or not finite. Negative light down to −0.01 becomes 0.
-pub fn read(path: &Path, files: &Files) -> Result<Environment, EnvironmentError> {
+pub fn read(path: &Path, files: &Files, most: usize) -> Result<Environment, EnvironmentError> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
     let decode = match ending.as_str() {
         "hdr" => radiance::decode,
@@ -82,7 +85,7 @@ pub fn read(path: &Path, files: &Files) -> Result<Environment, EnvironmentError>
     };
     let bytes = files.read_bytes(path, MAX_SIZE, "an environment")?;
     let broken = |problem| EnvironmentError::Broken { path: path.into(), problem };
-    let mut environment = decode(&bytes).map_err(broken)?;
+    let mut environment = decode(&bytes, most).map_err(broken)?;
     clean(&mut environment).map_err(broken)?;
     Ok(environment)
 }

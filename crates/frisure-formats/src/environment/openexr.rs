@@ -8,7 +8,7 @@ use exr::prelude::*;
 use super::map::{Environment, check_size};
 
 /// Reads the first layer with red, green and blue, or says what is wrong with the picture.
-pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Environment, String> {
+pub(super) fn decode(bytes: &[u8], most: usize) -> std::result::Result<Environment, String> {
     let wrong = |e: Error| format!("is no OpenEXR picture that can be read: {e}");
     // Before anything is made as large as the picture says it is.
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(wrong)?;
@@ -17,7 +17,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Environment, String> {
             return Err("holds deep pixels; an environment is flat".into());
         }
         let Vec2(width, height) = header.layer_size;
-        check_size(width, height)?;
+        check_size(width, height, most)?;
         let whole = header.shared_attributes.display_window.size;
         if whole != header.layer_size {
             return Err(format!(

@@ -4,11 +4,11 @@
 use super::map::{Environment, check_size};
 
 /// Reads a picture, or says what is wrong with it.
-pub(super) fn decode(bytes: &[u8]) -> Result<Environment, String> {
+pub(super) fn decode(bytes: &[u8], most: usize) -> Result<Environment, String> {
     let mut rest = bytes;
     let exposure = header(&mut rest)?;
     let (width, height) = size(&mut rest)?;
-    check_size(width, height)?;
+    check_size(width, height, most)?;
     let mut pixels = Vec::new();
     let mut row = vec![[0; 4]; width];
     for y in 0..height {

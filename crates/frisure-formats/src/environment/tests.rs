@@ -62,7 +62,7 @@ fn read_as(name: &str, bytes: &[u8]) -> Result<Environment, EnvironmentError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    read(&path, &Files::default())
+    read(&path, &Files::default(), usize::MAX)
 }
 
 fn says(result: Result<Environment, EnvironmentError>, part: &str) {
@@ -109,7 +109,7 @@ fn cut_files_are_refused_wherever_they_end() {
 
 #[test]
 fn what_is_no_environment_says_why() {
-    says(read(Path::new("nowhere.hdr"), &Files::default()), "there is no file");
+    says(read(Path::new("nowhere.hdr"), &Files::default(), usize::MAX), "there is no file");
     says(read_as("a.png", b"x"), "`.hdr` and `.exr`");
     let error = read_as("a.JPG", b"x").unwrap_err();
     assert!(error.hint().contains("cuts off"));
@@ -118,6 +118,11 @@ fn what_is_no_environment_says_why() {
     let sized = |size: &str| format!("#?RADIANCE\n\n{size}\n").into_bytes();
     says(read_as("a.hdr", &sized("-Y 4 +X 4")), "4 x 4 pixels; an environment is twice as wide");
     says(read_as("a.hdr", &sized("-Y 20000 +X 40000")), "at most 16384 x 8192");
+    let mut large = Files::default();
+    large.provide("a.hdr", sized("-Y 4 +X 8"));
+    let error = read(Path::new("a.hdr"), &large, 31).unwrap_err();
+    assert!(error.hint().contains("smaller"), "{error}");
+    says(Err(error), "8 x 4 pixels; at most 31 have room");
     says(read_as("a.hdr", &sized("+X 8 -Y 4")), "turned");
     says(read_as("a.hdr", &sized("large")), "`large` for a size");
     says(read_as("a.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n"), "32-bit_rle_xyze");

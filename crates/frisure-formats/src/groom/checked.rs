@@ -206,11 +206,16 @@ fn median(points: &[DVec3]) -> DVec3 {
     DVec3::new(middle(0), middle(1), middle(2))
 }
 
-/// The unit in which hair of a size, in units of the file, would be as large as a head of hair.
+/// The units in which hair of a size, in units of the file, would be as large as a head of hair.
 fn unit_hint(size: f64) -> String {
-    let units = [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254)];
+    let units = [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("dm", 0.1), ("in", 0.0254)];
     let fits = |(_, metres): &&(&str, f64)| (0.1..1.5).contains(&(size * metres));
-    units.iter().find(fits).map_or_else(String::new, |(name, _)| format!("; is it in {name}?"))
+    let names: Vec<&str> = units.iter().filter(fits).map(|(name, _)| *name).collect();
+    match names.split_last() {
+        None => String::new(),
+        Some((last, [])) => format!("; is it in {last}?"),
+        Some((last, others)) => format!("; is it in {} or {last}?", others.join(", ")),
+    }
 }
 
 #[cfg(test)]
@@ -233,7 +238,7 @@ mod tests {
     #[test]
     fn a_wrong_unit_is_told() {
         let error = curves(&LINE).strands(Frame::METRES_Z).unwrap_err();
-        assert!(error.ends_with("5 m; is it in cm?"), "{error}");
+        assert!(error.ends_with("5 m; is it in cm or in?"), "{error}");
     }
 
     #[test]

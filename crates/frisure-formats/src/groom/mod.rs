@@ -150,6 +150,12 @@ impl Format {
         Err(GroomError::Frame { format: self.extension(), up: self.frame().up.name() })
     }
 
+    /// Whether files of the format state their unit.
+    #[must_use]
+    pub fn states_unit(self) -> bool {
+        ["usdc", "usda", "usdz", "abc", "npz"].contains(&self.extension())
+    }
+
     /// Whether a file of the format can hold what holds the hair, as meshes.
     #[must_use]
     pub fn holds_accessories(self) -> bool {

@@ -195,7 +195,7 @@ fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let metres = arrays.remove(METRES).and_then(|a| a.number());
     let up = arrays.remove(UP).and_then(|a| a.text());
     let up = up.map(|t| if t == "y" { UpAxis::Y } else { UpAxis::Z });
-    let frame = choice.or(FrameChoice { metres, up }.or(FORMAT.frame));
+    let frame = choice.or(FrameChoice { metres, up, ..FrameChoice::default() }.or(FORMAT.frame));
     let name = arrays.remove(NAME).and_then(|a| a.text()).unwrap_or_default();
     let colour = colour(&mut arrays);
     let keys: Vec<String> = arrays.keys().cloned().collect();

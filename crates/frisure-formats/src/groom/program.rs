@@ -118,7 +118,11 @@ impl Program {
             program: self.name,
             known: self.formats.iter().map(|f| format!(".{}", f.0)).collect::<Vec<_>>().join(", "),
         })?;
-        Ok(FrameChoice { metres: Some(found.1.metres), up: Some(found.1.up) })
+        Ok(FrameChoice {
+            metres: Some(found.1.metres),
+            up: Some(found.1.up),
+            ..FrameChoice::default()
+        })
     }
 
     /// The groom without what the program does not know.

@@ -13,7 +13,7 @@ fn head(text: impl AsRef<[u8]>, change: impl FnOnce(&mut HeadFile)) -> Result<He
     let path = folder.path().join("head.obj");
     fs::write(&path, text).unwrap();
     let scalp = ScalpSource::Guess;
-    let frame = FrameChoice { metres: Some(0.01), up: None };
+    let frame = FrameChoice { metres: Some(0.01), ..FrameChoice::default() };
     let mut file = HeadFile { path, frame, turn: None, scalp };
     change(&mut file);
     if let ScalpSource::Weights(name) | ScalpSource::Mask(name) = &mut file.scalp {

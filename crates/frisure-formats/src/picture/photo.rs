@@ -48,14 +48,35 @@ pub enum PhotoReadError {
         /// What is wrong.
         problem: String,
     },
+    /// It is larger than what is read.
+    #[error("{}: {problem}", path.display())]
+    Large {
+        /// The path given.
+        path: PathBuf,
+        /// How large it is, and may be.
+        problem: String,
+    },
 }
 
-/// Reads the photo in a file: [`decode`].
+/// What is wrong with the bytes of a photo.
+#[derive(Debug)]
+enum Fault {
+    Damaged(String),
+    Large(String),
+}
+
+impl From<String> for Fault {
+    fn from(problem: String) -> Self {
+        Self::Damaged(problem)
+    }
+}
+
+/// Reads the photo in a file of at most `most` pixels, such as there is memory for, and at most [`MOST_PIXELS`]: [`decode`].
 ///
 /// # Errors
 /// [`PhotoReadError`].
-pub fn read(path: &Path) -> Result<Pixels, PhotoReadError> {
-    decode(&read_bytes(path, LARGEST_FILE, "a photo")?, path)
+pub fn read(path: &Path, most: usize) -> Result<Pixels, PhotoReadError> {
+    decode_at_most(&read_bytes(path, LARGEST_FILE, "a photo")?, path, most.min(MOST_PIXELS))
 }
 
 /// A photo from the bytes of a file, whose `path` is for errors alone; the first bytes tell the format. Grey is read as colour, 16 bits as 8, what is transparent as if white were behind it, and a photo that
@@ -64,38 +85,49 @@ pub fn read(path: &Path) -> Result<Pixels, PhotoReadError> {
 /// # Errors
 /// [`PhotoReadError`].
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Pixels, PhotoReadError> {
-    let damaged = |problem| PhotoReadError::Damaged { path: path.into(), problem };
+    decode_at_most(bytes, path, MOST_PIXELS)
+}
+
+fn decode_at_most(bytes: &[u8], path: &Path, most: usize) -> Result<Pixels, PhotoReadError> {
+    let told = |fault| match fault {
+        Fault::Damaged(problem) => PhotoReadError::Damaged { path: path.into(), problem },
+        Fault::Large(problem) => PhotoReadError::Large { path: path.into(), problem },
+    };
     if bytes.starts_with(b"\x89PNG") {
-        from_png(bytes).map_err(damaged)
+        from_png(bytes, most).map_err(told)
     } else if bytes.starts_with(&[0xff, 0xd8]) {
-        from_jpeg(bytes).map_err(damaged)
+        from_jpeg(bytes, most).map_err(told)
     } else {
         Err(PhotoReadError::Format { path: path.into() })
     }
 }
 
-fn too_many(width: usize, height: usize) -> String {
-    format!("{width} x {height} pixels are too many; at most {MOST_PIXELS} are read")
+fn too_many(width: usize, height: usize, most: usize) -> Fault {
+    let limit = match most {
+        MOST_PIXELS => format!("at most {MOST_PIXELS} are read"),
+        _ => format!("at most {most} have room in the memory that is free"),
+    };
+    Fault::Large(format!("{width} x {height} pixels are too many; {limit}"))
 }
 
-fn allowed(width: usize, height: usize) -> Result<(), String> {
+fn allowed(width: usize, height: usize, most: usize) -> Result<(), Fault> {
     let pixels = width.checked_mul(height);
     match pixels {
-        Some(0) => Err(format!("{width} x {height} pixels are no picture")),
-        Some(n) if n <= MOST_PIXELS => Ok(()),
-        _ => Err(too_many(width, height)),
+        Some(0) => Err(format!("{width} x {height} pixels are no picture").into()),
+        Some(n) if n <= most => Ok(()),
+        _ => Err(too_many(width, height, most)),
     }
 }
 
-fn from_png(bytes: &[u8]) -> Result<Pixels, String> {
+fn from_png(bytes: &[u8], most: usize) -> Result<Pixels, Fault> {
     let limits = png::Limits { bytes: 5 * MOST_PIXELS };
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
-    allowed(width, height)?;
+    allowed(width, height, most)?;
     let size = reader.output_buffer_size().filter(|&n| n <= 4 * MOST_PIXELS);
-    let mut pixels = vec![0; size.ok_or_else(|| too_many(width, height))?];
+    let mut pixels = vec![0; size.ok_or_else(|| too_many(width, height, most))?];
     let frame = reader.next_frame(&mut pixels).map_err(|e| e.to_string())?;
     let samples = frame.color_type.samples();
     let mut rgb = Vec::with_capacity(3 * width * height);
@@ -105,7 +137,7 @@ fn from_png(bytes: &[u8]) -> Result<Pixels, String> {
             [grey, alpha] => ([grey; 3], alpha),
             [r, g, b] => ([r, g, b], 255),
             [r, g, b, alpha] => ([r, g, b], alpha),
-            _ => return Err(format!("{samples} samples per pixel")),
+            _ => return Err(format!("{samples} samples per pixel").into()),
         };
         let over = |c: u8| {
             let (c, a) = (u32::from(c), u32::from(alpha));
@@ -118,9 +150,9 @@ fn from_png(bytes: &[u8]) -> Result<Pixels, String> {
     Ok(Pixels { width, height, rgb })
 }
 
-fn from_jpeg(bytes: &[u8]) -> Result<Pixels, String> {
+fn from_jpeg(bytes: &[u8], most: usize) -> Result<Pixels, Fault> {
     if !is_whole(bytes) {
-        return Err("it is cut short: its end is missing".to_owned());
+        return Err("it is cut short: its end is missing".to_owned().into());
     }
     let options = DecoderOptions::default()
         .set_max_width(MOST_PIXELS)
@@ -128,11 +160,11 @@ fn from_jpeg(bytes: &[u8]) -> Result<Pixels, String> {
         .jpeg_set_out_colorspace(ColorSpace::RGB);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(|e| e.to_string())?;
-    let (width, height) = decoder.dimensions().ok_or("it has no size")?;
-    allowed(width, height)?;
+    let (width, height) = decoder.dimensions().ok_or_else(|| "it has no size".to_owned())?;
+    allowed(width, height, most)?;
     let rgb = decoder.decode().map_err(|e| e.to_string())?;
     if rgb.len() != 3 * width * height {
-        return Err("it has no colours that can be read".to_owned());
+        return Err("it has no colours that can be read".to_owned().into());
     }
     let turn = decoder.exif().and_then(|exif| orientation(exif)).unwrap_or(1);
     Ok(turned(Pixels { width, height, rgb }, turn))
@@ -205,7 +237,7 @@ mod tests {
             encoder.set_color(color);
             encoder.set_depth(depth);
             encoder.write_header().unwrap().write_image_data(data).unwrap();
-            from_png(&bytes).unwrap().rgb
+            from_png(&bytes, MOST_PIXELS).unwrap().rgb
         };
         use png::{BitDepth, ColorType};
         assert_eq!(
@@ -227,9 +259,11 @@ mod tests {
     #[test]
     fn jpeg_is_read_and_turned() {
         // Red rises by 20 a pixel to the right, green by 25 downwards, in 12 x 9 pixels; saved by libjpeg, which loses a little.
-        let baseline = from_jpeg(include_bytes!("../../tests/data/turned.jpg")).unwrap();
-        let progressive = from_jpeg(include_bytes!("../../tests/data/progressive.jpg")).unwrap();
-        let grey = from_jpeg(include_bytes!("../../tests/data/grey.jpg")).unwrap();
+        let baseline =
+            from_jpeg(include_bytes!("../../tests/data/turned.jpg"), MOST_PIXELS).unwrap();
+        let progressive =
+            from_jpeg(include_bytes!("../../tests/data/progressive.jpg"), MOST_PIXELS).unwrap();
+        let grey = from_jpeg(include_bytes!("../../tests/data/grey.jpg"), MOST_PIXELS).unwrap();
         // The first says that it is to be turned clockwise.
         assert_eq!((baseline.width, baseline.height), (9, 12));
         assert_eq!((progressive.width, progressive.height, grey.rgb.len()), (12, 9, 324));
@@ -267,21 +301,28 @@ mod tests {
     fn a_jpeg_that_is_cut_short_is_an_error() {
         let whole = include_bytes!("../../tests/data/progressive.jpg");
         for length in [whole.len() - 2, whole.len() / 2 + 100] {
-            assert!(from_jpeg(&whole[..length]).unwrap_err().contains("cut short"), "{length}");
+            let fault = from_jpeg(&whole[..length], MOST_PIXELS).unwrap_err();
+            assert!(
+                matches!(&fault, Fault::Damaged(problem) if problem.contains("cut short")),
+                "{fault:?}"
+            );
         }
     }
 
     #[test]
     fn damaged_files_are_errors() {
         for bytes in [&b"\x89PNG\r\n\x1a\n"[..], b"\xff\xd8\xff\xe0", b"\xff\xd8", b"\x89PNG"] {
-            assert!(from_png(bytes).is_err());
-            assert!(from_jpeg(bytes).is_err());
+            assert!(from_png(bytes, MOST_PIXELS).is_err());
+            assert!(from_jpeg(bytes, MOST_PIXELS).is_err());
         }
         // A header that asks for 2^31 pixels a side.
         let mut huge =
             b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\x02\0\0\0".to_vec();
         huge.extend([0; 4]);
-        assert!(from_png(&huge).is_err());
-        assert!(allowed(usize::MAX, 3).is_err() && allowed(0, 5).is_err() && allowed(5, 5).is_ok());
+        assert!(from_png(&huge, MOST_PIXELS).is_err());
+        assert!(matches!(allowed(usize::MAX, 3, MOST_PIXELS), Err(Fault::Large(_))));
+        assert!(allowed(0, 5, 25).is_err() && allowed(5, 5, 25).is_ok());
+        let Err(Fault::Large(problem)) = allowed(5, 6, 25) else { panic!("30 of 25 pixels") };
+        assert!(problem.contains("at most 25 have room"), "{problem}");
     }
 }

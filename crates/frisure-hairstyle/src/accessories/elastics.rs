@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::accessory::Accessory;
 use super::kind::AccessoryKind;
@@ -13,6 +12,7 @@ use super::ties::ring;
 use crate::contact::BraidPath;
 use crate::hairstyle::{Grip, Hairstyle, Mould};
 use crate::head::Head;
+use crate::parallel;
 
 /// Half of the width along the hair and of the thickness (m) of an elastic. Chosen: small rubber bands.
 const BAND: [f64; 2] = [1.5e-3, 0.8e-3];
@@ -72,8 +72,8 @@ pub(super) fn elastics(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
     // Radius of the skin that a wisp grows from (m).
     let count = hairstyle.guides().len() as f64;
     let patch = (hairstyle.placement.area() / count / std::f64::consts::PI).sqrt();
-    let wisps = (0..hairstyle.wisps().len()).into_par_iter();
-    let ends: Vec<End> = wisps.filter_map(|wisp| End::of(hairstyle, wisp, patch)).collect();
+    let ends = parallel::map(hairstyle.wisps().len(), |wisp| End::of(hairstyle, wisp, patch));
+    let ends: Vec<End> = ends.into_iter().flatten().collect();
     let mut taken = vec![false; ends.len()];
     let mut bundles: Vec<Vec<&End>> = Vec::new();
     for (i, end) in ends.iter().enumerate() {

@@ -6,7 +6,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::accessory::Accessory;
 use super::kind::AccessoryKind;
@@ -15,6 +14,7 @@ use super::place::clearance;
 use super::winding::{Winding, span};
 use crate::hairstyle::{Grip, Hairstyle, Mould};
 use crate::head::Head;
+use crate::parallel;
 
 /// Least turns of hair that is on a roller. Chosen: less does not hold one.
 const TURNS: f64 = 0.75;
@@ -60,13 +60,11 @@ pub(super) fn rollers(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
         _ => None,
     });
     let held: Vec<(usize, f64)> = held.collect();
-    let windings: Vec<(Winding, f64)> = (held.par_iter())
-        .filter_map(|&(i, radius)| {
-            Some((Winding::of(i, &hairstyle.equilibria()[i], TURNS)?, radius))
-        })
-        .collect();
-    let candidate = |(winding, radius): &(Winding, f64)| Candidate::new(winding, *radius, head);
-    let mut candidates: Vec<Candidate> = windings.par_iter().filter_map(candidate).collect();
+    let candidates = parallel::map_slice(&held, |&(i, radius)| {
+        let winding = Winding::of(i, &hairstyle.equilibria()[i], TURNS)?;
+        Candidate::new(&winding, radius, head)
+    });
+    let mut candidates: Vec<Candidate> = candidates.into_iter().flatten().collect();
     candidates.sort_by(|a, b| b.round.total_cmp(&a.round).then(a.wisp.cmp(&b.wisp)));
     let mut kept: Vec<Candidate> = Vec::new();
     for candidate in candidates {

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::accessory::Accessory;
 use super::kind::AccessoryKind;
@@ -12,6 +11,7 @@ use super::mesh::{Axis, turned};
 use super::place::{Piece, clearance, mean};
 use crate::hairstyle::{Fastener, Grip, Hairstyle};
 use crate::head::Head;
+use crate::parallel;
 
 /// Half of the width along the hair and of the thickness (m) of a tie: a band of two turns. Chosen: usual ones have 4 mm a turn.
 const BAND: [f64; 2] = [4e-3, 2.5e-3];
@@ -39,8 +39,8 @@ pub(super) fn ties(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
         _ => None,
     };
     let bundles = bundles(hairstyle, tie, [SEARCHED[0] + ASLANT, SEARCHED[1] + ASLANT]);
-    let mut ties: Vec<Accessory> =
-        bundles.par_iter().filter_map(|pieces| band(pieces, head)).collect();
+    let ties = parallel::map_slice(&bundles, |pieces| band(pieces, head));
+    let mut ties: Vec<Accessory> = ties.into_iter().flatten().collect();
     ties.sort_by(|a, b| a.wisps.cmp(&b.wisps));
     ties
 }

@@ -2,7 +2,6 @@
 
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 use super::body::FrictionCoefficients;
 use super::friction::{FrictionGap, Scales, directions};
@@ -10,6 +9,7 @@ use super::sieve::{LANES, Run, Sieve, SievePoint};
 use super::thickness::Thickness;
 use super::wisp_friction::{Hold, Holds, Touching};
 use crate::math::{Grid, outer};
+use crate::parallel;
 
 /// The points of one guide at which contact is evaluated: evenly spaced, without the root.
 #[derive(Clone, Debug)]
@@ -310,17 +310,14 @@ impl ContactPairs {
             return (Vec::new(), vec![FrictionGap::default(); self.samples.len()]);
         }
         let none = Holds::default();
-        let along: Vec<Vec<DVec3>> =
-            self.samples.par_iter().map(|own| directions(&own.positions)).collect();
-        (0..self.samples.len())
-            .into_par_iter()
-            .map(|guide| {
-                let (field, own) = (self.around(guide), &self.samples[guide]);
-                let touching = (0..own.positions.len()).map(|k| field.touching(k, &along));
-                let before = self.holds.get(guide).unwrap_or(&none);
-                before.pressed(touching, own.spacing)
-            })
-            .unzip()
+        let along = parallel::map_slice(&self.samples, |own| directions(&own.positions));
+        let pressed = parallel::map(self.samples.len(), |guide| {
+            let (field, own) = (self.around(guide), &self.samples[guide]);
+            let touching = (0..own.positions.len()).map(|k| field.touching(k, &along));
+            let before = self.holds.get(guide).unwrap_or(&none);
+            before.pressed(touching, own.spacing)
+        });
+        pressed.into_iter().unzip()
     }
 
     /// Moves the points of a guide; who may touch whom stays until [`Self::update_neighbours`]. Gives the
@@ -342,10 +339,10 @@ impl ContactPairs {
         }
         let points = self.points(margins);
         let levels = GridLevel::sort(&points);
-        let found: Vec<Option<Nearby>> = points
-            .par_chunk_by(|a, b| a.guide == b.guide)
-            .map(|own| again[own[0].guide as usize].then(|| Nearby::search(own, &levels)))
-            .collect();
+        let own: Vec<&[Point]> = points.chunk_by(|a, b| a.guide == b.guide).collect();
+        let found: Vec<Option<Nearby>> = parallel::map_slice(&own, |own| {
+            again[own[0].guide as usize].then(|| Nearby::search(own, &levels))
+        });
         // A touch belongs to both guides: what a search found is entered with those that were not searched, too. So the
         // energy of a pair is the same from either side.
         let mut met: Vec<Vec<Met>> = vec![Vec::new(); found.len()];
@@ -356,12 +353,12 @@ impl ContactPairs {
                 }
             }
         }
-        let mut before = std::mem::take(&mut self.nearby);
-        before.resize_with(found.len(), Nearby::default);
-        let kept = found.into_par_iter().zip(before).zip(met);
-        self.nearby = kept
-            .map(|((found, before), met)| found.unwrap_or_else(|| before.amended(&met, again)))
-            .collect();
+        self.nearby.resize_with(found.len(), Nearby::default);
+        let mut kept: Vec<_> = self.nearby.iter_mut().zip(found).collect();
+        parallel::for_each_mut(&mut kept, |i, (nearby, found)| {
+            **nearby =
+                (found.take()).unwrap_or_else(|| std::mem::take(*nearby).amended(&met[i], again));
+        });
     }
 
     /// All points, guide by guide.

@@ -13,7 +13,7 @@ use crate::spec::{HairContact, HairstyleSpec};
 
 /// Most elements of a guide, whatever the accuracy.
 /// A guard on time: an accuracy that needs more is not reached.
-pub(super) const MOST_ELEMENTS: usize = 512;
+pub const MOST_ELEMENTS: usize = 512;
 
 /// Relative gradient at which a guide is at rest. Far below what can be seen; chosen, not measured further.
 pub(super) const TOLERANCE: f64 = 1e-8;

@@ -4,7 +4,6 @@ use frisure_rod::potential::{FieldPotential, Potential, Yielding};
 use frisure_rod::{
     AccuracyStatus, Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from,
 };
-use rayon::prelude::*;
 
 use super::fields::{
     MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, layer, options,
@@ -17,6 +16,7 @@ use super::start::{Change, GuideStart};
 use crate::contact::Pull;
 use crate::guides::Guide;
 use crate::head::Head;
+use crate::parallel;
 use crate::spec::{Body, HairContact, HairstyleSpec};
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
@@ -63,9 +63,9 @@ pub(super) fn settle(
     progress: &dyn Progress,
 ) -> Result<Vec<Rested>, Cancelled> {
     let stage = StageCounter::new(progress, "settling guides", guides.len());
-    let rest = |(index, guide): (usize, &Guide)| {
+    let rest = |index: usize| {
         stage.check()?;
-        let lock = &locks[index];
+        let (guide, lock) = (&guides[index], &locks[index]);
         let rest = match start {
             GuideStart::Natural => Rested::free(settle_one(spec, head, guide)),
             GuideStart::At(before) => {
@@ -91,7 +91,7 @@ pub(super) fn settle(
         stage.advance();
         Ok(rest)
     };
-    guides.par_iter().enumerate().map(rest).collect()
+    parallel::try_map(guides.len(), rest)
 }
 
 /// Brings a guide to rest after something was done to it.
@@ -284,8 +284,7 @@ pub(super) fn in_shapes_of(
     guides: &[Guide],
     before: &[Equilibrium],
 ) -> Vec<Equilibrium> {
-    let transfer = |(guide, before): (&Guide, &Equilibrium)| in_shape_of(spec, guide, before);
-    guides.par_iter().zip(before).map(transfer).collect()
+    parallel::map(guides.len(), |i| in_shape_of(spec, &guides[i], &before[i]))
 }
 
 /// A guide in the shape of the one before it.

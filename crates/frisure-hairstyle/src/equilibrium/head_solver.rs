@@ -17,7 +17,6 @@ use frisure_rod::Equilibrium;
 use frisure_rod::minimise::NewtonStep;
 use frisure_rod::potential::Yielding;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::friction_solver::Hold;
 use super::letting_go::loads;
@@ -26,6 +25,7 @@ use crate::contact::{ContactPairs, Pull};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
+use crate::parallel;
 use crate::spec::HairstyleSpec;
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
@@ -255,13 +255,10 @@ impl HeadSolver<'_> {
         for group in &self.groups {
             stage.check()?;
             let group: Vec<usize> = group.iter().copied().filter(|&i| who[i]).collect();
-            let settled: Vec<_> = group
-                .par_iter()
-                // No guide of a group touches another, so that moving them at the same time gives the same as one by one.
-                .map(|&i| {
-                    self.wisps[i].downhill(&self.pairs.around(i), self.reach[i] - self.drift[i])
-                })
-                .collect();
+            // No guide of a group touches another, so that moving them at the same time gives the same as one by one.
+            let settled = parallel::map_slice(&group, |&i| {
+                self.wisps[i].downhill(&self.pairs.around(i), self.reach[i] - self.drift[i])
+            });
             for (i, settled) in group.into_iter().zip(settled) {
                 self.wisps[i].take(settled);
                 self.last[i] = self.pairs.place(i, self.wisps[i].points());
@@ -316,9 +313,9 @@ impl HeadSolver<'_> {
 
     /// Step 2.2: computes the Newton steps that are not known.
     fn newton_steps(&self, newton: &mut [Option<NewtonStep>]) {
-        newton.par_iter_mut().enumerate().filter(|(_, n)| n.is_none()).for_each(|(i, n)| {
+        parallel::for_each_mut(newton, |i, n| {
             let reach = self.reach[i] - self.drift[i];
-            *n = Some(self.wisps[i].newton_step(&self.pairs.around(i), reach));
+            n.get_or_insert_with(|| self.wisps[i].newton_step(&self.pairs.around(i), reach));
         });
     }
 
@@ -351,12 +348,8 @@ impl HeadSolver<'_> {
         let energy = direction.energy.unwrap_or_else(|| self.energy());
         // 1. Each guide's part of the direction, cut to its remaining reach: who may touch whom stays valid.
         let mut fraction = direction.fraction;
-        let mut lengths: Vec<f64> = self
-            .wisps
-            .par_iter()
-            .zip(&direction.way)
-            .map(|(wisp, way)| wisp.length_of(way))
-            .collect();
+        let wisps = &self.wisps;
+        let mut lengths = parallel::map(wisps.len(), |i| wisps[i].length_of(&direction.way[i]));
         for (i, length) in lengths.iter_mut().enumerate() {
             let room = ROOM * (self.reach[i] - self.drift[i]) / fraction;
             if *length > room {
@@ -394,9 +387,8 @@ impl HeadSolver<'_> {
 
     /// Goes a fraction of a way from given shapes.
     fn go(&mut self, from: &[Settled], way: &[Vec<DVec3>], fraction: f64) {
-        let points: Vec<_> = (self.wisps.par_iter_mut().enumerate())
-            .map(|(i, wisp)| wisp.go(&from[i], &way[i], fraction))
-            .collect();
+        let points =
+            parallel::map_mut(&mut self.wisps, |i, wisp| wisp.go(&from[i], &way[i], fraction));
         for (i, points) in points.into_iter().enumerate() {
             self.pairs.place(i, points);
         }
@@ -404,9 +396,9 @@ impl HeadSolver<'_> {
 
     /// Energy of the head (J).
     fn energy(&self) -> f64 {
-        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.pairs.shared(i), None);
+        let share = |i: usize| self.wisps[i].share(&self.pairs.shared(i), None);
         // Summed in order, so that it does not depend on threads.
-        self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
+        parallel::map(self.wisps.len(), share).iter().sum()
     }
 
     fn finish(mut self, sweeps: usize) -> Rest {

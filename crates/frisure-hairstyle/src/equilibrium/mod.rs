@@ -13,6 +13,7 @@ mod start;
 mod tether;
 mod wisp;
 
+pub use fields::MOST_ELEMENTS;
 pub(crate) use fields::{combed_hold, held_up, holding};
 pub use friction_solver::FrictionalRod;
 pub use joint::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
@@ -27,10 +28,10 @@ use self::joint::JointOptions;
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
+use crate::parallel;
 use crate::spec::{HairContact, HairstyleSpec, HeadMethod};
 use frisure_progress::{Cancelled, Progress};
 use frisure_rod::potential::Yielding;
-use rayon::prelude::*;
 
 /// How much work is done at most; what does not fit is left for the next call, which starts warm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,8 +146,10 @@ fn all_stuck(spec: &HairstyleSpec, head: &Head, guides: &[Guide], mut rest: Rest
         return Rest { locks: Vec::new(), ..rest };
     }
     rest.locks.resize(guides.len(), None);
-    let all = rest.locks.par_iter_mut().zip(guides).zip(&rest.guides);
-    all.filter(|((lock, _), _)| lock.is_none())
-        .for_each(|((lock, guide), rest)| *lock = lock::stuck(spec, head, guide, rest));
+    parallel::for_each_mut(&mut rest.locks, |i, lock| {
+        if lock.is_none() {
+            *lock = lock::stuck(spec, head, &guides[i], &rest.guides[i]);
+        }
+    });
     rest
 }

@@ -2,12 +2,12 @@
 
 use frisure_rod::potential::YieldState;
 use frisure_rod::{AccuracyStatus, Stability};
-use rayon::prelude::*;
 
 use super::fields::depth;
 use super::lock;
 use crate::hairstyle::{Hairstyle, JointCertificate, Rest};
 use crate::head::Head;
+use crate::parallel;
 
 /// How a set of guides came to rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -81,6 +81,7 @@ pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
     }
     // Each guide counts the energy that it shares with other wisps in full.
     report.energy.external -= overlap_energy;
-    report.penetration = guides.par_iter().map(|guide| depth(head, guide)).reduce(|| 0.0, f64::max);
+    let depths = parallel::map_slice(guides, |guide| depth(head, guide));
+    report.penetration = depths.into_iter().fold(0.0, f64::max);
     report
 }

@@ -7,7 +7,6 @@ use frisure_rod::minimise::{
 use frisure_rod::potential::{Field, FieldPotential, Potential, Yielding};
 use frisure_rod::{Chain, Equilibrium, Shape};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::fields::{along, body, body_samples, layer, own_skin, samples};
 use super::friction_solver::Hold;
@@ -19,6 +18,7 @@ use crate::contact::{
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
+use crate::parallel;
 use crate::spec::HairstyleSpec;
 
 /// Iterations of one guide in one sweep: the others will move, too. Chosen by trial; not measured further.
@@ -323,7 +323,7 @@ impl<'a> Wisp<'a> {
     /// The parts of the derivatives of the guide.
     pub(super) fn sensitivity(&self, others: &dyn Field) -> Result<Sensitivity, DerivativeError> {
         self.among(others, None, |problem| {
-            Sensitivity::among_others(problem, self.settled.shape.clone())
+            Sensitivity::among_others(problem, self.settled.shape.clone(), self.resolution)
         })
     }
 
@@ -419,13 +419,13 @@ fn stuck(mut wisps: Vec<Wisp<'_>>, hold: Hold) -> Vec<Wisp<'_>> {
 
 /// Takes over how all wisps are pressed on skin and on each other; returns how far forces of friction were from the law.
 pub(super) fn press(wisps: &mut [Wisp<'_>], pairs: Option<&mut ContactPairs>) -> Vec<FrictionGap> {
-    let on_skin: Vec<FrictionGap> = wisps.par_iter_mut().map(Wisp::press).collect();
+    let on_skin: Vec<FrictionGap> = parallel::map_mut(wisps, |_, wisp| wisp.press());
     joined(on_skin, pairs.map(ContactPairs::press))
 }
 
 /// How far forces of friction are from the law where wisps are now.
 pub(super) fn friction_gaps(wisps: &[Wisp<'_>], pairs: Option<&ContactPairs>) -> Vec<FrictionGap> {
-    let on_skin = wisps.par_iter().map(Wisp::friction_gap).collect();
+    let on_skin = parallel::map_slice(wisps, Wisp::friction_gap);
     joined(on_skin, pairs.map(ContactPairs::friction_gaps))
 }
 
@@ -439,9 +439,7 @@ pub(super) fn rest_among(wisps: &[Wisp<'_>], pairs: &ContactPairs, tolerance: f6
     let overlaps = wisps.iter().enumerate().map(|(i, wisp)| wisp.energy_among(&pairs.around(i)));
     // Each pair counts on both sides.
     let overlap_energy = overlaps.sum::<f64>() * 0.5;
-    let guides = (wisps.par_iter().enumerate())
-        .map(|(i, wisp)| wisp.equilibrium(&pairs.around(i), tolerance))
-        .collect();
+    let guides = parallel::map(wisps.len(), |i| wisps[i].equilibrium(&pairs.around(i), tolerance));
     Rest { overlap_energy, locks: locks(wisps), ..Rest::apart(guides) }
 }
 
@@ -457,9 +455,7 @@ pub(super) fn rest_in<'a>(
     around: impl Fn(usize) -> Box<dyn Field + 'a> + Sync,
     tolerance: f64,
 ) -> Rest {
-    let guides = (wisps.par_iter().enumerate())
-        .map(|(i, wisp)| wisp.equilibrium(&*around(i), tolerance))
-        .collect();
+    let guides = parallel::map(wisps.len(), |i| wisps[i].equilibrium(&*around(i), tolerance));
     Rest { locks: locks(wisps), ..Rest::apart(guides) }
 }
 

@@ -6,9 +6,9 @@
 
 use frisure_strands::Surface;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::fans::part_sheets;
+use crate::parallel;
 
 /// Places at which a field is evaluated at once.
 pub(crate) const LANES: usize = 4;
@@ -53,9 +53,9 @@ pub(crate) fn mesh(
     let (mut positions, mut triangles) = nets(lattice, &Passed::follow(lattice, &field));
     for _ in 0..ROUNDS {
         positions = smoothed(&positions, &triangles);
-        positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
+        parallel::for_each_mut(&mut positions, |_, p| *p = projected(*p, &field));
     }
-    positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
+    parallel::for_each_mut(&mut positions, |_, p| *p = projected(*p, &field));
     part_sheets(&mut positions, &mut triangles);
     Surface::new(positions, triangles).expect("the field has a zero in the middle")
 }

@@ -32,7 +32,7 @@ mod voxels;
 
 use frisure_digest::Digest;
 use frisure_strands::Surface;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use thiserror::Error;
 
 pub(crate) use correspondence::{Correspondence, Corresponding};
@@ -45,6 +45,7 @@ pub use scalp::Hairline;
 pub use spheres::Sphere;
 pub(crate) use texture::Texture;
 pub use texture::textured;
+pub use upright::Stance;
 
 /// A head that hair can be planted on.
 ///
@@ -254,11 +255,10 @@ impl Head {
         &self.landmarks
     }
 
-    /// The rotation that would stand the head upright with its face towards −y, for a mesh that is a head and lies otherwise by
-    /// more than 30 degrees; `None` for an upright one, and for what is not like a human head from any side.
+    /// Whether the head stands upright with its face towards −y, and the rotation that would make it.
     #[must_use]
-    pub fn turn_to_upright(&self) -> Option<DMat3> {
-        upright::turn_to_upright(&self.surface, &self.signed_distance)
+    pub fn stance(&self) -> Stance {
+        upright::stance(&self.surface, &self.signed_distance)
     }
 
     /// The holes of the mesh where hair grows: none grows in them, and hair falls into the head. `None` without any.

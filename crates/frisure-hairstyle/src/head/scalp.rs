@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use frisure_digest::digestible;
 use frisure_strands::Surface;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::landmarks::Landmarks;
+use crate::parallel;
 use crate::random::{Purpose, Stream};
 
 digestible! {
@@ -66,7 +66,7 @@ pub(crate) fn weights(surface: &Surface, landmarks: &Landmarks) -> Vec<f64> {
     // Beyond the feather weights are constant: a little more, for rounding.
     let inside = |p| edge.inside_within(p, 1.01 * FEATHER) / FEATHER;
     let weight = |&p: &DVec3| smooth(inside(p)) * (1.0 - edge.on_ear(p));
-    surface.positions().par_iter().map(weight).collect()
+    parallel::map_slice(surface.positions(), weight)
 }
 
 /// How far outside the line the first hairs grow, and how far inside hair is full (m).

@@ -2,10 +2,10 @@
 
 use fearless_simd::{Level, Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f32x8};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::triangles::{Soup, closest_point};
 use super::voxel_grid::{FAR, Grid, NONE, Node};
+use crate::parallel;
 
 /// What the rounding of distances may add up to (m): `f32` distances within the band have steps below 1 nm, and bounds
 /// in `f64` err by far less.
@@ -66,19 +66,17 @@ impl Grid {
             }
         }
         let level = Level::new();
-        nodes.par_chunks_mut(SLAB * self.layer()).zip(slabs).enumerate().for_each(
-            |(index, (nodes, mut faces))| {
-                let base = index * SLAB;
-                let Some(part) = self.reset(nodes, base, &wrong) else { return };
-                let meets = |near: Nodes| {
-                    (0..3).all(|a| near[0][a] <= part[1][a] && near[1][a] >= part[0][a])
-                };
-                faces.retain(|&f| meets(self.near(soup.corners(f as usize), reach)));
-                let limits = vec![f32::INFINITY; nodes.len() + LANES];
-                let mut slab = Slab { base, nodes, limits, reach };
-                dispatch!(level, simd => self.fill(simd, &mut slab, soup, &faces));
-            },
-        );
+        let mut slabs: Vec<_> = nodes.chunks_mut(SLAB * self.layer()).zip(slabs).collect();
+        parallel::for_each_mut(&mut slabs, |index, (nodes, faces)| {
+            let base = index * SLAB;
+            let Some(part) = self.reset(nodes, base, &wrong) else { return };
+            let meets =
+                |near: Nodes| (0..3).all(|a| near[0][a] <= part[1][a] && near[1][a] >= part[0][a]);
+            faces.retain(|&f| meets(self.near(soup.corners(f as usize), reach)));
+            let limits = vec![f32::INFINITY; nodes.len() + LANES];
+            let mut slab = Slab { base, nodes, limits, reach };
+            dispatch!(level, simd => self.fill(simd, &mut slab, soup, faces));
+        });
     }
 
     /// Offers faces to the nodes of a slab, with the instruction set that `dispatch!` selects; `inline(always)` is what makes it so.

@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::head::{Edge, Head};
+use crate::parallel;
 use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
 
@@ -148,16 +148,13 @@ fn at(weights: [f64; 3], values: [DVec3; 3]) -> DVec3 {
 fn densities(head: &Head, edge: Option<&Edge>) -> Vec<f64> {
     let surface = head.surface();
     let scalp = head.scalp();
-    let faces = 0..surface.triangles().len();
+    let faces = surface.triangles().len();
     let Some(edge) = edge else {
         let mean = |i: usize| surface.triangles()[i].iter().map(|&v| scalp[v as usize] / 3.0).sum();
-        return faces.map(mean).collect();
+        return (0..faces).map(mean).collect();
     };
-    let inside: Vec<f64> = surface
-        .positions()
-        .par_iter()
-        .map(|&p| edge.inside_within(p, SURELY + edge.reach))
-        .collect();
+    let inside =
+        parallel::map_slice(surface.positions(), |&p| edge.inside_within(p, SURELY + edge.reach));
     let mean = |i: usize| -> f64 {
         let triangle = surface.triangles()[i].map(|v| v as usize);
         if triangle.iter().all(|&v| inside[v] < -SURELY) {
@@ -168,7 +165,7 @@ fn densities(head: &Head, edge: Option<&Edge>) -> Vec<f64> {
         }
         QUADRATURE.iter().map(|&b| edge.density(at(b, surface.corners(i))) / 4.0).sum()
     };
-    faces.into_par_iter().map(mean).collect()
+    parallel::map(faces, mean)
 }
 
 /// Centres of the four quarters of a triangle.

@@ -1,10 +1,10 @@
 //! Hairs near each point, found once for many searches.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::layout::Layout;
 use super::segment_grid::SegmentGrid;
+use crate::parallel;
 
 /// Segments of other hairs near each point, to a reach that leaves room for motion.
 #[derive(Default)]
@@ -22,11 +22,11 @@ impl Candidates {
         if self.at.len() != points.len() {
             return 1.0;
         }
-        let far = |&strand: &usize| {
+        let far = |strand: usize| {
             let mut range = layout.points(strand);
             range.any(|k| self.at[k].distance_squared(points[k]) > skin * skin)
         };
-        let count = (0..layout.strands()).into_par_iter().filter(far).count();
+        let count = parallel::map(layout.strands(), far).into_iter().filter(|far| *far).count();
         count as f64 / layout.strands() as f64
     }
 
@@ -52,7 +52,7 @@ impl Candidates {
             }
             (counts, near)
         };
-        let parts: Vec<_> = layout.chunks().par_iter().map(of_chunk).collect();
+        let parts = parallel::map_slice(layout.chunks(), of_chunk);
         let mut all = Self { at: points.to_vec(), starts: vec![0], near: Vec::new() };
         for (counts, near) in parts {
             let mut end = all.near.len() as u32;

@@ -6,11 +6,11 @@ use std::f64::consts::PI;
 
 use frisure_rod::batch::chain_factor::Symmetric;
 use glam::{DVec3, IVec3};
-use rayon::prelude::*;
 
 use super::interaction::{Interaction, InteractionSummary};
-use super::layout::Layout;
+use super::layout::{BLOCK, Layout, bounds};
 use super::pairs::StrandProperties;
+use crate::parallel;
 
 /// Fraction of space that fibres take at which hair begins to press. As between guides: parallel cylinders that touch take 0.91, those of
 /// a bundle in disorder some 0.8.
@@ -160,7 +160,7 @@ impl<'a> DensitySystem<'a> {
         let per_part = self.layout.strands().div_ceil(PARTS);
         let mut parts = std::mem::take(&mut self.parts);
         let this = &*self;
-        parts.par_iter_mut().enumerate().for_each(|(index, sums)| {
+        parallel::for_each_mut(&mut parts, |index, sums| {
             sums.clear();
             sums.resize(count, 0.0);
             let last = this.layout.strands();
@@ -174,8 +174,11 @@ impl<'a> DensitySystem<'a> {
         });
         let scale = self.cells.width.powi(3).recip();
         self.fraction.resize(count, 0.0);
-        self.fraction.par_iter_mut().enumerate().for_each(|(cell, sum)| {
-            *sum = parts.iter().map(|part| part[cell]).sum::<f64>() * scale;
+        let mut blocks: Vec<_> = self.fraction.chunks_mut(BLOCK).collect();
+        parallel::for_each_mut(&mut blocks, |index, sums| {
+            for (cell, sum) in (index * BLOCK..).zip(sums.iter_mut()) {
+                *sum = parts.iter().map(|part| part[cell]).sum::<f64>() * scale;
+            }
         });
         self.parts = parts;
     }
@@ -183,8 +186,8 @@ impl<'a> DensitySystem<'a> {
     /// Adds the sum over samples of `V Σ_c value_c ∇w_c` to both ends of their segments.
     fn spread(&self, points: &[DVec3], value: &[f64], forces: &mut [DVec3]) {
         let layout = self.layout;
-        let work = layout.chunks().par_iter().zip(layout.by_point(forces));
-        work.for_each(|(chunk, forces)| {
+        parallel::for_each_mut(&mut layout.by_point(forces), |index, forces| {
+            let chunk = &layout.chunks()[index];
             let first = layout.points(chunk.start).start;
             self.samples(points, chunk.clone(), |segment, share, volume| {
                 let p = points[segment].lerp(points[segment + 1], share);
@@ -201,9 +204,7 @@ impl<'a> DensitySystem<'a> {
 impl Interaction for DensitySystem<'_> {
     fn search(&mut self, points: &[DVec3], _: bool) -> InteractionSummary {
         // 1. A grid around all hair.
-        let bounds = points.par_iter().map(|p| (*p, *p));
-        let (low, high) = bounds
-            .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (low, high) = bounds(points);
         // On multiples of the width, so that cells stay where they are.
         let key = |p: DVec3| (p / self.cells.width).floor();
         self.cells.low = (key(low) - f64::from(MARGIN)) * self.cells.width;
@@ -226,18 +227,17 @@ impl Interaction for DensitySystem<'_> {
         self.gather(points, |_, _, volume, weight, _| volume * weight);
         let modulus = self.modulus;
         self.pressure.resize(self.fraction.len(), 0.0);
-        let work = self.pressure.par_chunks_mut(4096).zip(self.fraction.par_chunks(4096));
-        let energies: Vec<f64> = work
-            .map(|(pressures, fractions)| {
-                let mut sum = 0.0;
-                for (pressure, &fraction) in pressures.iter_mut().zip(fractions) {
-                    let (energy, first, _) = law(fraction);
-                    *pressure = modulus * first;
-                    sum += modulus * energy;
-                }
-                sum
-            })
-            .collect();
+        let blocks = self.pressure.chunks_mut(BLOCK).zip(self.fraction.chunks(BLOCK));
+        let mut blocks: Vec<_> = blocks.collect();
+        let energies = parallel::map_mut(&mut blocks, |_, (pressures, fractions)| {
+            let mut sum = 0.0;
+            for (pressure, &fraction) in pressures.iter_mut().zip(*fractions) {
+                let (energy, first, _) = law(fraction);
+                *pressure = modulus * first;
+                sum += modulus * energy;
+            }
+            sum
+        });
         self.spread(points, &self.pressure, forces);
         energies.iter().sum::<f64>() * self.cells.width.powi(3)
     }
@@ -245,12 +245,18 @@ impl Interaction for DensitySystem<'_> {
     fn linearise(&mut self, points: &[DVec3], own: &mut [Symmetric]) {
         self.gather(points, |_, _, volume, weight, _| volume * weight);
         let modulus = self.modulus;
-        self.bulk = self.fraction.par_iter().map(|&fraction| modulus * law(fraction).2).collect();
+        self.bulk.resize(self.fraction.len(), 0.0);
+        let blocks = self.bulk.chunks_mut(BLOCK).zip(self.fraction.chunks(BLOCK));
+        parallel::for_each_mut(&mut blocks.collect::<Vec<_>>(), |_, (bulks, fractions)| {
+            for (bulk, &fraction) in bulks.iter_mut().zip(*fractions) {
+                *bulk = modulus * law(fraction).2;
+            }
+        });
         self.at = points.to_vec();
         let scale = self.cells.width.powi(3).recip();
         let layout = self.layout;
-        let work = layout.chunks().par_iter().zip(layout.by_point(own));
-        work.for_each(|(chunk, own)| {
+        parallel::for_each_mut(&mut layout.by_point(own), |index, own| {
+            let chunk = &layout.chunks()[index];
             let first = layout.points(chunk.start).start;
             self.samples(points, chunk.clone(), |segment, share, volume| {
                 let p = points[segment].lerp(points[segment + 1], share);
@@ -273,18 +279,18 @@ impl Interaction for DensitySystem<'_> {
         self.gather(&points, |segment, share, volume, _, slope| {
             volume * slope.dot(motion[segment].lerp(motion[segment + 1], share))
         });
-        let work = self.pressure.par_chunks_mut(4096).zip(self.fraction.par_chunks(4096));
-        let costs: Vec<f64> = (work.zip(self.bulk.par_chunks(4096)))
-            .map(|((pressures, changes), bulks)| {
-                let mut sum = 0.0;
-                for ((pressure, change), bulk) in pressures.iter_mut().zip(changes).zip(bulks) {
-                    *pressure = bulk * change;
-                    sum += *pressure * change;
-                }
-                sum
-            })
-            .collect();
-        forces.par_iter_mut().for_each(|force| *force = DVec3::ZERO);
+        let blocks = self.pressure.chunks_mut(BLOCK).zip(self.fraction.chunks(BLOCK));
+        let mut blocks: Vec<_> = blocks.collect();
+        let costs = parallel::map_mut(&mut blocks, |index, (pressures, changes)| {
+            let mut sum = 0.0;
+            let bulks = &self.bulk[index * BLOCK..];
+            for ((pressure, change), bulk) in pressures.iter_mut().zip(*changes).zip(bulks) {
+                *pressure = bulk * change;
+                sum += *pressure * change;
+            }
+            sum
+        });
+        forces.fill(DVec3::ZERO);
         self.spread(&points, &self.pressure, forces);
         self.at = points;
         costs.iter().sum::<f64>() * self.cells.width.powi(3)

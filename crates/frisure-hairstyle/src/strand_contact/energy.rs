@@ -4,12 +4,12 @@ use frisure_rod::Stability;
 use frisure_rod::batch::chain_factor::{ChainShape, JointFactor, Symmetric};
 use frisure_rod::batch::{Batch, ConfinementTube, Contact, InitialShape, JointChain};
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 use super::StrandSystem;
 use super::interaction::Interaction;
 use super::layout::Layout;
 use super::pairs::StrandProperties;
+use crate::parallel;
 
 /// Most iterations of a hair by itself. As in a tube.
 const ALONE: usize = 400;
@@ -46,16 +46,15 @@ pub(super) struct State {
 impl<'a> Head<'a> {
     pub(super) fn new(system: &'a StrandSystem<'a>) -> Self {
         let layout = Layout::new(&system.elements);
-        let chain = |(rod, &elements): (&_, &usize)| JointChain::new(rod, elements);
-        let chains: Vec<JointChain> =
-            (system.rods.par_iter().zip(&system.elements)).map(chain).collect();
+        let chain = |strand: usize| JointChain::new(&system.rods[strand], system.elements[strand]);
+        let chains = parallel::map(layout.strands(), chain);
         let moments = system.rods.iter().map(frisure_rod::Rod::moment_scale).collect();
-        let tubes = (chains.par_iter().enumerate())
-            .flat_map_iter(|(strand, chain)| {
-                (0..=chain.joints()).map(move |k| system.field.confinement(strand, chain.at(k).0))
-            })
-            .collect();
-        Self { system, layout, chains, tubes, moments }
+        let tubes = parallel::map(chains.len(), |strand| {
+            let (chain, field) = (&chains[strand], system.field);
+            let tubes = (0..=chain.joints()).map(|k| field.confinement(strand, chain.at(k).0));
+            tubes.collect::<Vec<_>>()
+        });
+        Self { system, layout, chains, tubes: tubes.concat(), moments }
     }
 
     pub(super) fn properties(&self) -> StrandProperties<'_> {
@@ -90,15 +89,15 @@ impl<'a> Head<'a> {
     pub(super) fn place(&self, state: &mut State) {
         let layout = &self.layout;
         let State { controls, points, frames, forces, clear, .. } = state;
-        let work = (layout.chunks().par_iter())
-            .zip(layout.by_point(points))
+        let mut work: Vec<_> = (layout.by_point(points).into_iter())
             .zip(layout.by_joint(frames))
             .zip(layout.by_point(forces))
-            .zip(layout.by_point(clear));
-        let energies: Vec<f64> = work
-            .map(|((((chunk, points), frames), forces), clear)| {
+            .zip(layout.by_point(clear))
+            .collect();
+        let energies =
+            parallel::map_mut(&mut work, |index, (((points, frames), forces), clear)| {
                 let (mut joint, mut point, mut energy) = (0, 0, 0.0);
-                for strand in chunk.clone() {
+                for strand in layout.chunks()[index].clone() {
                     let chain = &self.chains[strand];
                     let n = chain.joints();
                     let points = &mut points[point..=point + n];
@@ -109,8 +108,7 @@ impl<'a> Head<'a> {
                     (joint, point) = (joint + n, point + n + 1);
                 }
                 energy
-            })
-            .collect();
+            });
         state.energy = energies.iter().sum();
     }
 
@@ -159,10 +157,9 @@ impl<'a> Head<'a> {
         let layout = &self.layout;
         state.energy += interaction.add_forces(&state.points, &mut state.forces);
         let State { controls, points, frames, forces, gradient, .. } = state;
-        let work = (layout.chunks().par_iter()).zip(layout.by_joint(gradient));
-        work.for_each(|(chunk, gradient)| {
+        parallel::for_each_mut(&mut layout.by_joint(gradient), |index, gradient| {
             let mut joint = 0;
-            for strand in chunk.clone() {
+            for strand in layout.chunks()[index].clone() {
                 let chain = &self.chains[strand];
                 let n = chain.joints();
                 let (joints, range) = (layout.joints(strand), layout.points(strand));
@@ -231,8 +228,8 @@ impl<'a> Head<'a> {
 
     /// The turns (rad) of hairs each at rest by itself, from others; those that find no rest keep theirs.
     pub(super) fn alone(&self, mut controls: Vec<DVec3>, tolerance: f64) -> Vec<DVec3> {
-        let work = self.layout.chunks().par_iter().zip(self.layout.by_joint(&mut controls));
-        work.for_each(|(chunk, controls)| {
+        parallel::for_each_mut(&mut self.layout.by_joint(&mut controls), |index, controls| {
+            let chunk = &self.layout.chunks()[index];
             let n = self.system.elements[chunk.start];
             let batch = Batch { elements: n, tolerance, max_iterations: ALONE, ..Batch::default() };
             let start = InitialShape::Controls(controls.to_vec());
@@ -260,6 +257,6 @@ impl<'a> Head<'a> {
             let of = &state.gradient[self.layout.joints(strand)];
             of.iter().map(|g| g.length()).fold(0.0, f64::max) / self.moments[strand]
         };
-        (0..self.layout.strands()).into_par_iter().map(largest).collect()
+        parallel::map(self.layout.strands(), largest)
     }
 }

@@ -2,6 +2,10 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
+
+use crate::parallel;
+
 /// Hairs of several numbers of joints, one after the other. A hair has one more point than joints.
 pub(super) struct Layout {
     /// The first joint of each hair; one more than hairs.
@@ -13,6 +17,9 @@ pub(super) struct Layout {
 /// Most hairs of a chunk: enough to fill vectors, few enough for all threads to have work. Chosen; no result depends on the number of
 /// threads.
 const CHUNK: usize = 128;
+
+/// Values of a long list that are worked on together, and summed up by themselves. Chosen; no result depends on the number of threads.
+pub(super) const BLOCK: usize = 4096;
 
 impl Layout {
     /// Hairs of so many joints each, at least one.
@@ -72,6 +79,16 @@ impl Layout {
     pub(super) fn by_point<'a, T>(&self, values: &'a mut [T]) -> Vec<&'a mut [T]> {
         split_mut(values, self.chunks.iter().map(|c| c.clone().map(|s| self.points(s).len()).sum()))
     }
+}
+
+/// The lowest and the highest corner of the box around these points.
+pub(super) fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    let low = |points: &[DVec3]| points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = |points: &[DVec3]| points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let blocks: Vec<&[DVec3]> = points.chunks(BLOCK).collect();
+    let (lows, highs): (Vec<DVec3>, Vec<DVec3>) =
+        parallel::map_slice(&blocks, |block| (low(block), high(block))).into_iter().unzip();
+    (low(&lows), high(&highs))
 }
 
 /// A slice cut into pieces of these lengths.

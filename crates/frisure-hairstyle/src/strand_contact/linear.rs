@@ -8,10 +8,10 @@ use std::ops::Range;
 
 use frisure_rod::batch::chain_factor::{JointFactor, Symmetric, solve, subtract_gradient};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::energy::{Head, State};
 use super::interaction::Interaction;
+use crate::parallel;
 
 /// Damping of a hair whose Hessian is not positive definite, and the factor by which it grows until it is: (1 + damping) times the
 /// stiffness of joints. As for rods in lanes.
@@ -93,7 +93,7 @@ impl LinearModel {
         };
         let points = layout.point_count();
         Self {
-            parts: layout.chunks().par_iter().map(part).collect(),
+            parts: parallel::map_slice(layout.chunks(), part),
             damping: vec![0.0; layout.strands()],
             drag: vec![0.0; layout.strands()],
             own: vec![Symmetric::default(); points],
@@ -114,10 +114,11 @@ impl LinearModel {
         let damping = layout.by_strand(&mut self.damping);
         // Only D is of the interaction alone: what is outside of hairs is in M and in H alike.
         let (own, drag) = (&self.own, &self.drag);
-        self.parts.par_iter_mut().zip(damping).for_each(|(part, damping)| {
+        let mut work: Vec<_> = self.parts.iter_mut().zip(damping).collect();
+        parallel::for_each_mut(&mut work, |_, (part, damping)| {
             let mut stiffness = Vec::new();
             let first = layout.joints(part.strands.start).start;
-            for (strand, damping) in part.strands.clone().zip(damping) {
+            for (strand, damping) in part.strands.clone().zip(damping.iter_mut()) {
                 let (joints, points) = (layout.joints(strand), layout.points(strand));
                 stiffness.clear();
                 stiffness.extend_from_slice(&own[points]);
@@ -150,7 +151,7 @@ impl LinearModel {
         rule: LinearRule,
     ) {
         let layout = &head.layout;
-        self.parts.par_iter_mut().for_each(|part| {
+        parallel::for_each_mut(&mut self.parts, |_, part| {
             part.begin(layout.joints(part.strands.start).start, gradient);
         });
         self.motion.fill(DVec3::ZERO);
@@ -182,17 +183,15 @@ impl LinearModel {
     fn residual(&mut self, head: &Head<'_>, step: Option<f64>) -> f64 {
         let layout = &head.layout;
         let Self { parts, own, motion, forces, .. } = self;
-        let products: Vec<f64> = (parts.par_iter_mut())
-            .zip(layout.by_point(motion))
-            .zip(layout.by_point(forces))
-            .map(|((part, motion), forces)| {
-                let first = layout.points(part.strands.start).start;
-                if let Some(step) = step {
-                    part.advance(head, step, (motion, forces), &own[first..first + motion.len()]);
-                }
-                part.precondition(head)
-            })
-            .collect();
+        let mut work: Vec<_> = parts.iter_mut().zip(layout.by_point(forces)).collect();
+        let products = parallel::map_mut(&mut work, |_, (part, forces)| {
+            let first = layout.points(part.strands.start).start;
+            let points = first..first + forces.len();
+            if let Some(step) = step {
+                part.advance(head, step, (&motion[points.clone()], forces), &own[points]);
+            }
+            part.precondition(head)
+        });
         products.iter().sum()
     }
 
@@ -200,12 +199,11 @@ impl LinearModel {
     fn turn(&mut self, head: &Head<'_>, interaction: &mut dyn Interaction, beta: f64) -> f64 {
         let layout = &head.layout;
         let Self { parts, own, motion, forces, .. } = self;
-        let curvatures: Vec<f64> = (parts.par_iter_mut().zip(layout.by_point(motion)))
-            .map(|(part, motion)| {
-                let first = layout.points(part.strands.start).start;
-                part.turn(beta, motion, &own[first..first + motion.len()])
-            })
-            .collect();
+        let mut work: Vec<_> = parts.iter_mut().zip(layout.by_point(motion)).collect();
+        let curvatures = parallel::map_mut(&mut work, |_, (part, motion)| {
+            let first = layout.points(part.strands.start).start;
+            part.turn(beta, motion, &own[first..first + motion.len()])
+        });
         curvatures.iter().sum::<f64>() + interaction.product(motion, forces)
     }
 
@@ -214,26 +212,24 @@ impl LinearModel {
     fn hold(&mut self, head: &Head<'_>) -> usize {
         let layout = &head.layout;
         let Self { parts, own, motion, forces, drag, .. } = self;
-        let curvatures: Vec<Vec<(f64, f64)>> = (parts.par_iter())
-            .map(|part| {
-                let mut joint = 0;
-                let of_strand = |strand: usize| {
-                    let n = layout.joints(strand).len();
-                    let of = joint..joint + n;
-                    joint += n;
-                    let products = part.direction[of.clone()].iter().zip(&part.image[of]);
-                    let mut curvature: f64 = products.map(|(p, q)| p.dot(*q)).sum();
-                    let mut square = 0.0;
-                    for (k, at) in layout.points(strand).enumerate() {
-                        let u = motion[at];
-                        curvature += u.dot(forces[at] - own[at] * u);
-                        square += u.length_squared() * head.chains[strand].at(k).1;
-                    }
-                    (curvature, square)
-                };
-                part.strands.clone().map(of_strand).collect()
-            })
-            .collect();
+        let curvatures: Vec<Vec<(f64, f64)>> = parallel::map_slice(parts, |part| {
+            let mut joint = 0;
+            let of_strand = |strand: usize| {
+                let n = layout.joints(strand).len();
+                let of = joint..joint + n;
+                joint += n;
+                let products = part.direction[of.clone()].iter().zip(&part.image[of]);
+                let mut curvature: f64 = products.map(|(p, q)| p.dot(*q)).sum();
+                let mut square = 0.0;
+                for (k, at) in layout.points(strand).enumerate() {
+                    let u = motion[at];
+                    curvature += u.dot(forces[at] - own[at] * u);
+                    square += u.length_squared() * head.chains[strand].at(k).1;
+                }
+                (curvature, square)
+            };
+            part.strands.clone().map(of_strand).collect()
+        });
         let worst = curvatures.iter().flatten().map(|of| of.0).fold(0.0, f64::min);
         let mut count = 0;
         for ((part, curvatures), drag) in
@@ -258,10 +254,11 @@ impl LinearModel {
         let far = layout.by_strand(far);
         let most =
             |values: &[DVec3]| values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
-        let work = self.parts.par_iter().zip(layout.by_joint(step)).zip(far);
-        work.for_each(|((part, step), far)| {
+        let mut work: Vec<_> = layout.by_joint(step).into_iter().zip(far).collect();
+        parallel::for_each_mut(&mut work, |index, (step, far)| {
+            let part = &self.parts[index];
             let (mut joint, mut point) = (0, 0);
-            for (strand, far) in part.strands.clone().zip(far) {
+            for (strand, far) in part.strands.clone().zip(far.iter_mut()) {
                 let n = layout.joints(strand).len();
                 let x = &part.solution[joint..joint + n];
                 *far = (most(&part.solution_moved[point..=point + n]), most(x));

@@ -1,14 +1,15 @@
 //! Hairs that push and rub each other: contact of every hair with every other, equal and opposite on both.
 //!
-//! A point of one hair and a segment of another repel each other closer than their contact distance, and stick together until they
+//! A point of one hair and the line of another repel each other closer than their contact distance, and stick together until they
 //! slip; or all hairs are a volume that presses where it is too dense. All hairs come to rest together, by Newton's method on the energy of
 //! all. docs/theory.md, "Hairs that push each other"
 //!
-//! Files: `layout` (hairs in long arrays), `interaction` (what couples hairs), `segment_grid`, `candidates`, `pairs` and `pair_system`
+//! Files: `layout` (hairs in long arrays), `curve` (their lines), `interaction` (what couples hairs), `segment_grid`, `candidates`, `pairs` and `pair_system`
 //! (contacts), `density_system` (a volume), `energy` (of a shape of all hairs), `linear` (the linear system of a step), `newton` (a step),
 //! `settle` (until rest, certificate).
 
 mod candidates;
+mod curve;
 mod density_system;
 mod energy;
 mod interaction;
@@ -42,7 +43,7 @@ pub enum InteractionForm {
 /// Hairs in contact with each other.
 pub(crate) struct StrandSystem<'a> {
     pub(crate) rods: Vec<Rod>,
-    /// Elements of each hair; hairs of as many are best side by side.
+    /// Elements of each hair, at least two; hairs of as many are best side by side.
     pub(crate) elements: Vec<usize>,
     /// Contact radius (m) of each hair: half of the distance at which two such hairs begin to touch.
     pub(crate) radii: Vec<f64>,

@@ -2,11 +2,12 @@
 
 use frisure_progress::{Cancelled, StageCounter};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::energy::{Head, State};
 use super::interaction::Interaction;
+use super::layout::BLOCK;
 use super::linear::{LinearModel, LinearRule};
+use crate::parallel;
 
 /// Armijo's constant.
 const ARMIJO: f64 = 1e-4;
@@ -49,7 +50,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// A step from an evaluated shape to another.
+    /// A step from an evaluated shape to another; `false` if it stays where it is, because no direction leads down.
     ///
     /// # Errors
     /// [`Cancelled`], if the progress says so.
@@ -58,7 +59,7 @@ impl<'a> Newton<'a> {
         interaction: &mut dyn Interaction,
         state: &mut State,
         rule: LinearRule,
-    ) -> Result<(), Cancelled> {
+    ) -> Result<bool, Cancelled> {
         self.stage.check()?;
         let head = self.head;
         self.linear.linearise(interaction, state);
@@ -70,10 +71,10 @@ impl<'a> Newton<'a> {
             self.linear.step(head, &mut self.step, &mut self.far);
             self.limit();
             if self.search(interaction, state) {
-                break;
+                return Ok(true);
             }
         }
-        Ok(())
+        Ok(false)
     }
 
     /// Shortens the steps of hairs that go too far, and holds these back the next time.
@@ -98,10 +99,10 @@ impl<'a> Newton<'a> {
             };
         let layout = &head.layout;
         let drag = layout.by_strand(&mut linear.drag);
-        let work = layout.chunks().par_iter().zip(layout.by_joint(step)).zip(drag);
-        work.for_each(|((chunk, step), drag)| {
+        let mut work: Vec<_> = layout.by_joint(step).into_iter().zip(drag).collect();
+        parallel::for_each_mut(&mut work, |index, (step, drag)| {
             let mut joint = 0;
-            for (strand, drag) in chunk.clone().zip(drag) {
+            for (strand, drag) in layout.chunks()[index].clone().zip(drag.iter_mut()) {
                 let n = layout.joints(strand).len();
                 limit(strand, &mut step[joint..joint + n], far[strand], drag);
                 joint += n;
@@ -117,7 +118,7 @@ impl<'a> Newton<'a> {
             let pairs = gradient[joints.clone()].iter().zip(&self.step[joints]);
             pairs.map(|(g, d)| g.dot(*d)).sum::<f64>()
         };
-        (0..layout.strands()).into_par_iter().map(slope).collect()
+        parallel::map(layout.strands(), slope)
     }
 
     /// Goes along the step if the energy falls, shortening the steps of hairs that go beyond their minimum where it does not;
@@ -129,9 +130,11 @@ impl<'a> Newton<'a> {
         for trials in 0..TRIALS {
             let slope: f64 = slopes.iter().sum();
             let trial = &mut self.trial;
-            trial.controls.clear();
-            let moved = state.controls.par_iter().zip(&self.step).map(|(c, d)| *c + *d);
-            trial.controls.par_extend(moved);
+            trial.controls.copy_from_slice(&state.controls);
+            let blocks = trial.controls.chunks_mut(BLOCK).zip(self.step.chunks(BLOCK));
+            parallel::for_each_mut(&mut blocks.collect::<Vec<_>>(), |_, (controls, step)| {
+                controls.iter_mut().zip(*step).for_each(|(c, d)| *c += *d);
+            });
             trial.clear.copy_from_slice(&state.clear);
             head.evaluate(interaction, trial);
             let there = self.slopes(&self.trial.gradient);
@@ -145,25 +148,22 @@ impl<'a> Newton<'a> {
             }
             // Hairs whose slope has turned go to where it is zero between, away from both ends, and those that bend farther than their
             // motion said go as far as they may; all go less far where there is neither.
-            let factors: Vec<f64> = (0..there.len())
-                .into_par_iter()
-                .map(|strand| {
-                    let (t, s) = (there[strand], slopes[strand]);
-                    let moved = head.moved(strand, &state.points, &self.trial.points);
-                    let far = self.farthest * head.system.radii[strand];
-                    let over = moved > 2.0 * far || t > 0.3 * s.abs();
-                    if over && trials >= PATIENCE {
-                        // Others must not wait for it: it stays where it is.
-                        0.0
-                    } else if moved > 2.0 * far {
-                        (far / moved).clamp(0.02, 0.5)
-                    } else if t > 0.3 * s.abs() {
-                        if s < 0.0 { (s / (s - t)).clamp(0.1, 0.7) } else { 0.1 }
-                    } else {
-                        1.0
-                    }
-                })
-                .collect();
+            let factors = parallel::map(there.len(), |strand| {
+                let (t, s) = (there[strand], slopes[strand]);
+                let moved = head.moved(strand, &state.points, &self.trial.points);
+                let far = self.farthest * head.system.radii[strand];
+                let over = moved > 2.0 * far || t > 0.3 * s.abs();
+                if over && trials >= PATIENCE {
+                    // Others must not wait for it: it stays where it is.
+                    0.0
+                } else if moved > 2.0 * far {
+                    (far / moved).clamp(0.02, 0.5)
+                } else if t > 0.3 * s.abs() {
+                    if s < 0.0 { (s / (s - t)).clamp(0.1, 0.7) } else { 0.1 }
+                } else {
+                    1.0
+                }
+            });
             let turned = factors.iter().filter(|&&factor| factor < 1.0).count();
             for (strand, factor) in factors.into_iter().enumerate() {
                 let factor = if turned == 0 { 0.3 } else { factor };

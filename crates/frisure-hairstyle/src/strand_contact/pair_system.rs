@@ -2,12 +2,13 @@
 
 use frisure_rod::batch::chain_factor::Symmetric;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::candidates::Candidates;
+use super::curve::{Nearest, Place, farthest_from_links};
 use super::interaction::{Interaction, InteractionSummary};
 use super::layout::{Layout, split_mut};
-use super::pairs::{Nearest, Pair, PairForce, Pairs, StrandProperties};
+use super::pairs::{Pair, PairForce, Pairs, StrandProperties};
+use crate::parallel;
 
 /// Share of what turning normals take away from the stiffness that is taken: with all of it, linear systems are often not positive
 /// definite; with less, steps along the other hair are too short. Chosen by trial.
@@ -28,19 +29,18 @@ pub(super) struct PairSystem<'a> {
     springs: Springs,
 }
 
-/// The stiffness of a pair between a point and a place on a segment.
+/// The stiffness of a pair between a point and a place on a line.
 #[derive(Clone, Copy, Debug, Default)]
 struct Spring {
     point: u32,
-    segment: u32,
-    share: f64,
+    place: Place,
     stiffness: Symmetric,
     turning: Turning,
 }
 
 /// What the normal force takes away from the stiffness of a pair as the normal turns: for the motion u of the point against the place on
-/// the segment and Δ of the segment's end against its beginning, `−(f/d) (|u|² − (n·u)² − (u·τ + (d/ℓ) n·Δ)²)`, with the segment's
-/// direction τ and length ℓ; without the last square where the place is an end of the segment. [D]
+/// the line, and Δ of the line's derivative by its parameter, `−(f/d) (|u|² − (n·u)² − (u·τ + (d/ℓ) n·Δ)²)`, with the direction τ of that
+/// derivative and its length ℓ; without the last square where the place is an end of the line. What the bend of the line changes is left out. [D]
 #[derive(Clone, Copy, Debug, Default)]
 struct Turning {
     /// f/d (N/m).
@@ -49,27 +49,28 @@ struct Turning {
     along: DVec3,
     /// d/ℓ.
     lever: f64,
+    /// The weights of the place's points in the derivative.
+    slopes: [f64; 3],
 }
 
 impl Turning {
-    fn new(pair: &Pair, nearest: &Nearest, points: &[DVec3]) -> Self {
+    fn new(pair: &Pair, nearest: &Nearest) -> Self {
         let distance = nearest.away.length().max(1e-12);
-        let at = nearest.segment as usize;
-        let segment = points[at + 1] - points[at];
         let (across, normal) =
             (TURNING * pair.force_at(distance) / distance, nearest.away / distance);
-        if nearest.share > 0.0 && nearest.share < 1.0 {
-            let length = segment.length();
-            Self { across, normal, along: segment / length, lever: distance / length }
-        } else {
-            Self { across, normal, ..Self::default() }
+        match nearest.along {
+            Some((along, slopes)) => {
+                let length = along.length().max(1e-12);
+                Self { across, normal, along: along / length, lever: distance / length, slopes }
+            }
+            None => Self { across, normal, ..Self::default() },
         }
     }
 
-    /// Adds to the force (N) on the point; returns that on the segment's end against its beginning, and the cost (J).
+    /// Adds to the force (N) on the point; returns that on the line's derivative, and the cost (J).
     #[inline]
     fn product(&self, apart: DVec3, turned: DVec3, force: &mut DVec3) -> (DVec3, f64) {
-        let Self { across, normal: n, along, lever } = *self;
+        let Self { across, normal: n, along, lever, .. } = *self;
         let slide = apart.dot(along) + lever * n.dot(turned);
         let by = apart - n * n.dot(apart) - along * slide;
         *force -= by * across;
@@ -83,7 +84,7 @@ struct Springs {
     springs: Vec<Spring>,
     /// Where those of the points of each chunk of hairs begin; one more than chunks.
     starts: Vec<usize>,
-    /// Springs and their segments, in the order of hairs; and where those of each chunk begin.
+    /// Springs by the chunk of their places, and where those of each chunk begin.
     incoming: Vec<u32>,
     incoming_starts: Vec<usize>,
     /// Of each, in a product.
@@ -104,7 +105,8 @@ impl<'a> PairSystem<'a> {
 
 impl Interaction for PairSystem<'_> {
     fn search(&mut self, points: &[DVec3], exact: bool) -> InteractionSummary {
-        let reach = Pairs::reach(&self.of);
+        // Candidates are links: lines leave them by a little.
+        let reach = Pairs::reach(&self.of) + farthest_from_links(self.of.layout, points);
         let skin = SKIN * reach;
         let most = if exact { 0.0 } else { OUTDATED };
         if self.candidates.outdated(self.of.layout, points, skin) > most {
@@ -122,10 +124,9 @@ impl Interaction for PairSystem<'_> {
     fn add_forces(&mut self, points: &[DVec3], forces: &mut [DVec3]) -> f64 {
         let layout = self.of.layout;
         let energy = self.pairs.forces(layout, points, &mut self.forces);
-        let work = layout.chunks().par_iter().zip(layout.by_point(forces));
-        work.for_each(|(chunk, forces)| {
+        parallel::for_each_mut(&mut layout.by_point(forces), |index, forces| {
             let mut point = 0;
-            for strand in chunk.clone() {
+            for strand in layout.chunks()[index].clone() {
                 let range = layout.points(strand);
                 let own = &mut forces[point..point + range.len()];
                 self.pairs.add_forces(strand, range.start, &self.forces, own);
@@ -151,26 +152,25 @@ impl Springs {
             let mut springs = Vec::new();
             for pair in chunk.clone().flat_map(|strand| pairs.of(strand)) {
                 let (nearest, normal, friction) = pair.stiffness(layout, points);
-                let turning = Turning::new(pair, &nearest, points);
-                let mut push = |segment, share, stiffness, turning| {
+                let turning = Turning::new(pair, &nearest);
+                let mut push = |place, stiffness, turning| {
                     if stiffness != Symmetric::default() {
-                        let point = pair.point;
-                        springs.push(Spring { point, segment, share, stiffness, turning });
+                        springs.push(Spring { point: pair.point, place, stiffness, turning });
                     }
                 };
                 let stuck = pair.stuck_to();
-                if stuck == (nearest.segment, nearest.share) {
+                if stuck == nearest.place {
                     let mut both = normal;
                     both += friction;
-                    push(stuck.0, stuck.1, both, turning);
+                    push(stuck, both, turning);
                 } else {
-                    push(nearest.segment, nearest.share, normal, turning);
-                    push(stuck.0, stuck.1, friction, Turning::default());
+                    push(nearest.place, normal, turning);
+                    push(stuck, friction, Turning::default());
                 }
             }
             springs
         };
-        let found: Vec<Vec<Spring>> = layout.chunks().par_iter().map(of_chunk).collect();
+        let found = parallel::map_slice(layout.chunks(), of_chunk);
         self.springs.clear();
         self.starts.clear();
         self.starts.push(0);
@@ -179,14 +179,17 @@ impl Springs {
             self.starts.push(self.springs.len());
         }
         self.forces.resize(self.springs.len(), (DVec3::ZERO, DVec3::ZERO));
-        // A counting sort by the chunk of the segment.
+        // A counting sort by the chunk of the place.
         let ends: Vec<usize> =
             layout.chunks().iter().map(|c| layout.points(c.end - 1).end).collect();
-        let chunk_of: Vec<u32> = self
-            .springs
-            .par_iter()
-            .map(|spring| ends.partition_point(|&end| end <= spring.segment as usize) as u32)
-            .collect();
+        let chunk_of = |spring: &Spring| {
+            ends.partition_point(|&end| end <= spring.place.first as usize) as u32
+        };
+        let chunk_of: Vec<u32> = parallel::map(ends.len(), |index| {
+            let springs = &self.springs[self.starts[index]..self.starts[index + 1]];
+            springs.iter().map(chunk_of).collect::<Vec<_>>()
+        })
+        .concat();
         let mut starts = vec![0; layout.chunks().len() + 1];
         chunk_of.iter().for_each(|&chunk| starts[chunk as usize + 1] += 1);
         (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
@@ -201,55 +204,54 @@ impl Springs {
 
     /// Adds to the stiffness (N/m) of each point that of all springs while other points hold still.
     ///
-    /// The share of a segment's two points in a pair is lumped: `v vᵀ ≤ diag(v)` for shares v that sum to one.
+    /// The weights of a place's points in a pair are lumped: `v vᵀ ≤ diag(v)` for shares v that sum to one.
     fn add_own(&self, layout: &Layout, own: &mut [Symmetric]) {
-        let work = layout.chunks().par_iter().enumerate().zip(layout.by_point(own));
-        work.for_each(|((index, chunk), own)| {
-            let first = layout.points(chunk.start).start;
+        parallel::for_each_mut(&mut layout.by_point(own), |index, own| {
+            let first = layout.points(layout.chunks()[index].start).start;
             for spring in &self.springs[self.starts[index]..self.starts[index + 1]] {
                 own[spring.point as usize - first] += spring.stiffness;
             }
             for &k in &self.incoming[self.incoming_starts[index]..self.incoming_starts[index + 1]] {
-                let Spring { segment, share, stiffness, .. } = self.springs[k as usize];
-                let at = segment as usize - first;
-                own[at] += stiffness * (1.0 - share);
-                own[at + 1] += stiffness * share;
+                let Spring { place, stiffness, .. } = self.springs[k as usize];
+                let at = place.first as usize - first;
+                for (own, weight) in own[at..].iter_mut().zip(place.weights) {
+                    *own += stiffness * weight;
+                }
             }
         });
     }
 
     fn product(&mut self, layout: &Layout, motion: &[DVec3], sum: &mut [DVec3]) -> f64 {
         let Self { springs, starts, incoming, incoming_starts, forces } = self;
-        let pieces = split_mut(forces, starts.windows(2).map(|w| w[1] - w[0]));
-        let costs: Vec<f64> = (pieces.into_par_iter().zip(starts.par_windows(2)))
-            .map(|(forces, range)| {
-                let mut cost = 0.0;
-                for (force, spring) in forces.iter_mut().zip(&springs[range[0]..range[1]]) {
-                    let at = spring.segment as usize;
-                    let place = motion[at].lerp(motion[at + 1], spring.share);
-                    let apart = motion[spring.point as usize] - place;
-                    let mut on = spring.stiffness * apart;
-                    cost += on.dot(apart);
-                    let turned = motion[at + 1] - motion[at];
-                    let (end, more) = spring.turning.product(apart, turned, &mut on);
-                    *force = (on, end);
-                    cost += more;
-                }
-                cost
-            })
-            .collect();
-        let work = layout.chunks().par_iter().enumerate().zip(layout.by_point(sum));
-        work.for_each(|((index, chunk), sum)| {
-            let first = layout.points(chunk.start).start;
+        let mut pieces = split_mut(forces, starts.windows(2).map(|w| w[1] - w[0]));
+        let costs = parallel::map_mut(&mut pieces, |index, forces| {
+            let mut cost = 0.0;
+            for (force, spring) in forces.iter_mut().zip(&springs[starts[index]..]) {
+                let apart = motion[spring.point as usize] - spring.place.of(motion);
+                let mut on = spring.stiffness * apart;
+                cost += on.dot(apart);
+                let slopes = Place { weights: spring.turning.slopes, ..spring.place };
+                let turned = slopes.of(motion);
+                let (end, more) = spring.turning.product(apart, turned, &mut on);
+                *force = (on, end);
+                cost += more;
+            }
+            cost
+        });
+        parallel::for_each_mut(&mut layout.by_point(sum), |index, sum| {
+            let first = layout.points(layout.chunks()[index].start).start;
             sum.fill(DVec3::ZERO);
             for k in starts[index]..starts[index + 1] {
                 sum[springs[k].point as usize - first] += forces[k].0;
             }
             for &k in &incoming[incoming_starts[index]..incoming_starts[index + 1]] {
-                let (spring, (force, end)) = (&springs[k as usize], forces[k as usize]);
-                let at = spring.segment as usize - first;
-                sum[at] -= force * (1.0 - spring.share) + end;
-                sum[at + 1] -= force * spring.share - end;
+                let (Spring { place, turning, .. }, (force, end)) =
+                    (&springs[k as usize], forces[k as usize]);
+                let at = place.first as usize - first;
+                let weights = place.weights.into_iter().zip(turning.slopes);
+                for (sum, (weight, slope)) in sum[at..].iter_mut().zip(weights) {
+                    *sum -= force * weight - end * slope;
+                }
             }
         });
         costs.iter().sum()

@@ -1,15 +1,16 @@
-//! Contacts between hairs: a point of one and a segment of another, their energy, and friction between them.
+//! Contacts between hairs: a point of one and the line of another, their energy, and friction between them.
 //!
 //! docs/theory.md, "Hairs that push each other"
 
 use frisure_rod::batch::chain_factor::Symmetric;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::candidates::Candidates;
+use super::curve::{Nearest, Place, nearest};
 use super::interaction::InteractionSummary;
 use super::layout::{Layout, split_mut};
 use crate::contact::{FrictionCoefficients, SLIP_DISTANCE, Scales, Way};
+use crate::parallel;
 
 /// Overlap, as a share of the contact distance, at which two hairs bear the force scale of a hair. Chosen: a hair lies a tenth of the
 /// distance in the one that it lies on; not measured further.
@@ -38,13 +39,13 @@ pub(super) struct StrandProperties<'a> {
     pub(super) hardness: f64,
 }
 
-/// A point of one hair near a segment of another. Half of the energy of two hairs is that of points of the one, half that of the other.
+/// A point of one hair near the line of another. Half of the energy of two hairs is that of points of the one, half that of the other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) point: u32,
-    /// The other hair, and its nearest segment at the last search: the first of its two points.
+    /// The other hair, and the point of it at which it was nearest at the last search.
     pub(super) strand: u32,
-    segment: u32,
+    near: u32,
     /// Contact distance D (m).
     distance: f64,
     /// Half of the length at the point times the stiffness: k (N/m) of `k e³/6D`.
@@ -61,18 +62,8 @@ struct Stick {
     anchor: DVec3,
     normal: DVec3,
     scales: [Scales; 2],
-    /// The place on the other hair that it stuck to: segment and share of it.
-    segment: u32,
-    share: f64,
-}
-
-/// Where a point is nearest to another hair.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
-    pub(super) segment: u32,
-    pub(super) share: f64,
-    /// From there to the point (m).
-    pub(super) away: DVec3,
+    /// The place on the other hair that it stuck to.
+    place: Place,
 }
 
 /// The gradients (N) of a pair by its point, and where their opposites act.
@@ -80,8 +71,7 @@ pub(super) struct Nearest {
 pub(super) struct PairForce {
     /// Energy (J).
     energy: f64,
-    segment: u32,
-    share: f64,
+    place: Place,
     pub(super) normal: DVec3,
     pub(super) friction: DVec3,
 }
@@ -92,24 +82,15 @@ pub(super) struct Pairs {
     pairs: Vec<Pair>,
     /// Where the pairs of the points of each hair begin; one more than hairs.
     starts: Vec<u32>,
-    /// Pairs whose segment is of each hair, in their order, and where those of each hair begin.
+    /// Pairs with the line of each hair, in their order, and where those of each hair begin.
     incoming: Vec<u32>,
     incoming_starts: Vec<u32>,
 }
 
-fn nearest_on(points: &[DVec3], segment: u32, x: DVec3) -> Nearest {
-    let (a, b) = (points[segment as usize], points[segment as usize + 1]);
-    let along = b - a;
-    let share = ((x - a).dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0);
-    // The end itself, so that both segments that meet there are as near.
-    let place = if share == 1.0 { b } else { a + along * share };
-    Nearest { segment, share, away: x - place }
-}
-
 impl Pair {
-    /// Where its point is nearest to the other hair, from the segment of the last search on downhill.
+    /// Where its point is nearest to the other hair, from the place of the last search on downhill.
     fn nearest(&self, layout: &Layout, points: &[DVec3]) -> Nearest {
-        descend(layout, points, self.strand, self.segment, points[self.point as usize])
+        nearest(layout, points, self.strand, self.near, points[self.point as usize])
     }
 
     /// Energy (J), force (N) and stiffness (N/m) along the normal at a distance (m): `k e³/6D`, `k e²/2D`, `k e/D`.
@@ -122,9 +103,8 @@ impl Pair {
 
     /// The tangential way (m) from where it stuck.
     fn slid(&self, points: &[DVec3]) -> DVec3 {
-        let Stick { segment, share, anchor, normal, .. } = self.stick;
-        let (a, b) = (points[segment as usize], points[segment as usize + 1]);
-        let way = points[self.point as usize] - a.lerp(b, share) - anchor;
+        let Stick { place, anchor, normal, .. } = self.stick;
+        let way = points[self.point as usize] - place.of(points) - anchor;
         way - normal * normal.dot(way)
     }
 
@@ -143,8 +123,7 @@ impl Pair {
             energy += self.stick.limit * way.energy(SLIP_DISTANCE);
             friction = way.force(SLIP_DISTANCE) * self.stick.limit;
         }
-        let Nearest { segment, share, .. } = nearest;
-        PairForce { energy, segment, share, normal, friction }
+        PairForce { energy, place: nearest.place, normal, friction }
     }
 
     /// Stiffness (N/m) by its point: along the normal, and of friction, neither of them negative in any direction.
@@ -177,31 +156,9 @@ impl Pair {
         self.normal(distance).1
     }
 
-    /// Segment and share of it of the other hair that it stuck to.
-    pub(super) fn stuck_to(&self) -> (u32, f64) {
-        (self.stick.segment, self.stick.share)
-    }
-}
-
-/// From a segment of a hair on to the neighbouring one as long as that is nearer to `x`. Of two that are as near, where they meet, it
-/// is the later one.
-fn descend(layout: &Layout, points: &[DVec3], strand: u32, segment: u32, x: DVec3) -> Nearest {
-    let range = layout.points(strand as usize);
-    let (first, last) = (range.start as u32, range.end as u32 - 2);
-    let mut best = nearest_on(points, segment, x);
-    loop {
-        let at = best.segment;
-        // On the inner side of a bend the neighbouring segment can be nearer though this one is met between its ends.
-        let back = best.share < 0.5;
-        if (back && at == first) || (!back && at == last) {
-            return best;
-        }
-        let there = nearest_on(points, if back { at - 1 } else { at + 1 }, x);
-        let (near, far) = (there.away.length_squared(), best.away.length_squared());
-        if near > far || (back && near == far) {
-            return best;
-        }
-        best = there;
+    /// The place on the other hair that it stuck to.
+    pub(super) fn stuck_to(&self) -> Place {
+        self.stick.place
     }
 }
 
@@ -218,10 +175,8 @@ impl Pairs {
         points: &[DVec3],
         near: &Candidates,
     ) -> (Self, InteractionSummary) {
-        let found: Vec<(Vec<Pair>, Tally)> = (0..of.layout.strands())
-            .into_par_iter()
-            .map(|strand| self.of_strand(of, points, near, strand))
-            .collect();
+        let of_strand = |strand| self.of_strand(of, points, near, strand);
+        let found = parallel::map(of.layout.strands(), of_strand);
         let mut next = Self { starts: vec![0], ..Self::default() };
         let mut tally = Tally::default();
         for (some, of) in found {
@@ -246,17 +201,16 @@ impl Pairs {
         let mut before = self.of(strand);
         for point in of.layout.points(strand).skip(1) {
             let x = points[point];
-            // Segments of the same hair lead to the same nearest one.
+            // Segments of the same hair lead to the same nearest place.
             let first = pairs.len();
             let known = before.iter().take_while(|pair| pair.point == point as u32).count();
             let (known, later) = before.split_at(known);
             before = later;
             tally.before += known.iter().map(|pair| pair.stick.limit).sum::<f64>();
             for &(other, segment) in near.of(point) {
-                let nearest = descend(of.layout, points, other, segment, x);
-                let same = |pair: &Pair| {
-                    pair.strand == other && pair.segment.abs_diff(nearest.segment) <= 1
-                };
+                let nearest = nearest(of.layout, points, other, segment, x);
+                let middle = nearest.place.first + 1;
+                let same = |pair: &Pair| pair.strand == other && pair.near.abs_diff(middle) <= 1;
                 if pairs[first..].iter().rev().any(same) {
                     continue;
                 }
@@ -307,17 +261,13 @@ impl Pairs {
         let lengths = strands
             .iter()
             .map(|range| (self.starts[range.end] - self.starts[range.start]) as usize);
-        let slices = split_mut(forces, lengths);
-        let energies: Vec<f64> = (strands.par_iter().zip(slices))
-            .map(|(range, forces)| {
-                let from = self.starts[range.start] as usize;
-                let pairs = &self.pairs[from..from + forces.len()];
-                for (force, pair) in forces.iter_mut().zip(pairs) {
-                    *force = pair.force(layout, points);
-                }
-                forces.iter().map(|force| force.energy).sum::<f64>()
-            })
-            .collect();
+        let energies = parallel::map_mut(&mut split_mut(forces, lengths), |index, forces| {
+            let from = self.starts[strands[index].start] as usize;
+            for (force, pair) in forces.iter_mut().zip(&self.pairs[from..]) {
+                *force = pair.force(layout, points);
+            }
+            forces.iter().map(|force| force.energy).sum::<f64>()
+        });
         energies.iter().sum()
     }
 
@@ -335,13 +285,14 @@ impl Pairs {
         }
         for &k in self.onto(strand) {
             let (pair, force) = (&self.pairs[k as usize], &all[k as usize]);
-            let mut act = |segment: u32, share: f64, f: DVec3| {
-                let at = segment as usize - first;
-                sum[at] -= f * (1.0 - share);
-                sum[at + 1] -= f * share;
+            let mut act = |place: Place, f: DVec3| {
+                let at = place.first as usize - first;
+                for (sum, weight) in sum[at..].iter_mut().zip(place.weights) {
+                    *sum -= f * weight;
+                }
             };
-            act(force.segment, force.share, force.normal);
-            act(pair.stick.segment, pair.stick.share, force.friction);
+            act(force.place, force.normal);
+            act(pair.stick.place, force.friction);
         }
     }
 
@@ -378,7 +329,7 @@ impl Pairs {
         self.forces(of.layout, points, &mut forces);
         let touching = |force: &&PairForce| force.normal != DVec3::ZERO;
         let overlap = |(pair, force): (&Pair, &PairForce)| {
-            let away = nearest_on(points, force.segment, points[pair.point as usize]).away;
+            let away = points[pair.point as usize] - force.place.of(points);
             1.0 - away.length() / pair.distance
         };
         InteractionSummary {
@@ -422,8 +373,8 @@ impl Pair {
         (own, point): (usize, usize),
         (strand, nearest): (u32, &Nearest),
     ) -> Option<Self> {
-        let &Nearest { segment, share, away } = nearest;
-        let at = segment as usize;
+        let &Nearest { place, away, .. } = nearest;
+        let at = place.first as usize;
         let distance = of.radii[own] + of.radii[strand as usize];
         if away.length_squared() > (distance * (1.0 + MARGIN)).powi(2) {
             return None;
@@ -437,10 +388,10 @@ impl Pair {
         Some(Self {
             point: point as u32,
             strand,
-            segment,
+            near: place.first + 1,
             distance,
             stiffness: 0.5 * of.shares[point] * stiffness * of.hardness,
-            stick: Stick { limit, anchor: away, normal, scales, segment, share },
+            stick: Stick { limit, anchor: away, normal, scales, place },
         })
     }
 
@@ -458,17 +409,20 @@ impl Pair {
         if coefficient == 0.0 {
             return;
         }
-        let Stick { normal, segment, .. } = self.stick;
+        let Stick { normal, place, .. } = self.stick;
         let limit = coefficient * self.normal(self.stick.anchor.length()).1;
         let flat = |v: DVec3| (v - normal * normal.dot(v)).normalize_or_zero();
         let along = |at: usize| flat(points[at + 1] - points[at]);
+        // The link that the place is on.
+        let other = place.first as usize + usize::from(place.weights[2] > place.weights[0]);
         let scales = [
             Scales::new(along(self.point as usize - 1), a.against_scales),
-            Scales::new(along(segment as usize), b.against_scales).of_other(),
+            Scales::new(along(other), b.against_scales).of_other(),
         ];
         // As between wisps, half of the scales of either.
         self.stick.scales = scales.map(|scales| scales.weighed(0.5));
-        let same = |pair: &&Self| pair.strand == self.strand && pair.segment.abs_diff(segment) <= 1;
+        let near = self.near;
+        let same = |pair: &&Self| pair.strand == self.strand && pair.near.abs_diff(near) <= 1;
         if let Some(before) = known.iter().find(same) {
             let (slid, way) = (before.slid(points), before.way(points));
             tally.used.push((before.stick.limit * way.used(SLIP_DISTANCE), limit));

@@ -1,9 +1,9 @@
 //! Segments of hairs sorted into the cells of a grid, to find those near a point.
 
 use glam::{DVec3, IVec3};
-use rayon::prelude::*;
 
-use super::layout::Layout;
+use super::layout::{Layout, bounds};
+use crate::parallel;
 
 /// A grid with the segments that cross each cell.
 pub(super) struct SegmentGrid {
@@ -22,10 +22,7 @@ const CELLS_PER_SEGMENT: f64 = 64.0;
 impl SegmentGrid {
     /// Sorts the segments between the points (m) of hairs for searches within `reach` (m).
     pub(super) fn new(layout: &Layout, points: &[DVec3], reach: f64) -> Self {
-        let (low, high) = points
-            .par_iter()
-            .map(|p| (*p, *p))
-            .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let (low, high) = bounds(points);
         // A ball of the reach is in eight cells at most.
         let mut cell = (2.0 * reach).max(1e-6);
         let count = |cell: f64| ((high - low) / cell).floor() + DVec3::ONE;
@@ -54,7 +51,7 @@ impl SegmentGrid {
             }
             crossed
         };
-        let crossed: Vec<Vec<_>> = layout.chunks().par_iter().map(of_chunk).collect();
+        let crossed = parallel::map_slice(layout.chunks(), of_chunk);
         let cells = self.size.as_i64vec3().element_product() as usize;
         let mut starts = vec![0_u32; cells + 2];
         for (cell, ..) in crossed.iter().flatten() {

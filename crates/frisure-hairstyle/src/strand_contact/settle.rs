@@ -14,6 +14,9 @@ use super::{InteractionForm, SettledStrands, StrandCertificate, StrandSystem};
 /// Most iterations in all. Chosen by trial; not measured further.
 const MOST_ITERATIONS: usize = 600;
 
+/// Steps without a way down after which it ends. Chosen: hairs are held back more from one to the next; what once stood still for 20 did so for 200.
+const STUCK: usize = 15;
+
 /// The way to rest goes from soft contact to hard contact, so that hairs that start in each other part without haste: hardness of the
 /// contact between hairs, iterations, and how far hairs may move in each of them, in contact radii. Chosen by trial.
 const STAGES: [(f64, usize, f64); 6] = [
@@ -72,7 +75,7 @@ pub(crate) fn settle(
     };
     let mut state = head.state(controls);
     let mut newton = Newton::new(&head, stage, FARTHEST);
-    let mut iterations = 0;
+    let (mut iterations, mut stuck) = (0, 0);
     let mean_radius = system.radii.iter().sum::<f64>() / system.radii.len().max(1) as f64;
     let widest_step = DENSITY_STEP / mean_radius.max(1e-9);
     head.place(&mut state);
@@ -86,7 +89,8 @@ pub(crate) fn settle(
         interaction.harden(hardness);
         newton.farthest = farthest;
         // 1. Contacts where hairs are now; friction as it is there.
-        let mut summary = interaction.search(&state.points, iterations == MOST_ITERATIONS);
+        let mut summary =
+            interaction.search(&state.points, iterations == MOST_ITERATIONS || stuck == STUCK);
         head.evaluate(interaction, &mut state);
         // 2. At rest with these?
         let mut gradients = head.gradients(&state);
@@ -102,11 +106,12 @@ pub(crate) fn settle(
         }
         let certificate = certificate(system.form, &gradients, tolerance, &summary, iterations);
         let at_rest = certificate.balanced == gradients.len() && summary.change <= FRICTION;
-        if (at_rest && hardness == 1.0) || iterations >= MOST_ITERATIONS {
+        let ends = iterations >= MOST_ITERATIONS || stuck >= STUCK;
+        if (at_rest && hardness == 1.0) || ends {
             break certificate;
         }
         // 3. Downhill.
-        newton.step(interaction, &mut state, LINEAR)?;
+        stuck = if newton.step(interaction, &mut state, LINEAR)? { 0 } else { stuck + 1 };
         iterations += 1;
         stage.advance();
     };

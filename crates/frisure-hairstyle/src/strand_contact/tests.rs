@@ -95,10 +95,13 @@ impl Tuft {
     }
 }
 
+/// Elements of mirrored hairs: a place on the line of a hair is a mean of three points, where its mirror image has one.
+const MIRRORED: usize = 96;
+
 /// Two parallel hairs side by side without weight, whose roots are nearer than the contact distance.
 fn mirrored(friction: f64) -> Tuft {
     let one = |side: f64| hair(DVec3::X * (side * 1.5e-4), DVec3::Y, 0.03, 1.0, DVec3::ZERO);
-    Tuft { rods: vec![one(1.0), one(-1.0)], elements: 24, friction }
+    Tuft { rods: vec![one(1.0), one(-1.0)], elements: MIRRORED, friction }
 }
 
 /// One of two mirrored hairs: contact with its own mirror image in x, where both have half of the energy.
@@ -139,19 +142,20 @@ fn two_mirrored_hairs_are_where_one_rests_at_its_mirror_image() {
     let rod = &tuft.rods[0];
     let scale = rod.moment_scale() / rod.length().powi(2);
     let mirror = Mirror { stiffness: 2.0 * scale / (0.01 * 2.0 * RADIUS) };
-    let batch = Batch { elements: 24, tolerance: 1e-9, ..Batch::default() };
-    let start = InitialShape::Controls(vec![DVec3::ZERO; 24]);
+    let batch = Batch { elements: MIRRORED, tolerance: 1e-9, ..Batch::default() };
+    let start = InitialShape::Controls(vec![DVec3::ZERO; MIRRORED]);
     let (one, _) = batch.solve_in_contact(std::slice::from_ref(rod), start, &mirror, 0);
-    let alone = tuft.points(&[one.controls.clone(), vec![DVec3::ZERO; 24]].concat());
-    let (tip, other) = (points[0][24], alone[0][24]);
+    let alone = tuft.points(&[one.controls.clone(), vec![DVec3::ZERO; MIRRORED]].concat());
+    let (tip, other) = (points[0][MIRRORED], alone[0][MIRRORED]);
     let moved = other.x - 1.5e-4;
     assert!(moved > 2e-5 && (tip.x - other.x).abs() < 1e-3 * moved, "{tip} {other}");
     let bent = |controls: &[DVec3], rod: &Rod| {
-        let (mut points, mut frames) = (vec![DVec3::ZERO; 25], vec![DMat3::ZERO; 24]);
-        JointChain::new(rod, 24).shape(controls, &mut points, &mut frames)
+        let (mut points, mut frames) =
+            (vec![DVec3::ZERO; MIRRORED + 1], vec![DMat3::ZERO; MIRRORED]);
+        JointChain::new(rod, MIRRORED).shape(controls, &mut points, &mut frames)
     };
     let elastic: f64 =
-        settled.controls.chunks(24).zip(&tuft.rods).map(|(c, rod)| bent(c, rod)).sum();
+        settled.controls.chunks(MIRRORED).zip(&tuft.rods).map(|(c, rod)| bent(c, rod)).sum();
     let both = elastic + tuft.forces(&settled.controls).1;
     let half = one.rods[0].energy;
     assert!((both - 2.0 * half).abs() < 1e-3 * half, "{both} {half}");
@@ -174,7 +178,7 @@ fn forces_between_hairs_are_equal_and_opposite() {
 fn without_friction_the_answer_is_that_of_friction_that_vanishes() {
     let [none, little] = [0.0, 1e-7].map(|mu| {
         let tuft = mirrored(mu);
-        tuft.points(&tuft.settle(None, 1e-7).controls)[0][24]
+        tuft.points(&tuft.settle(None, 1e-7).controls)[0][MIRRORED]
     });
     assert!(none.distance(little) < 1e-8, "{none} {little}");
 }

@@ -66,8 +66,8 @@ struct Place {
 }
 
 /// Length of a line (m).
-fn length(points: &[Vec3]) -> f64 {
-    points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).sum()
+fn length(points: &[DVec3]) -> f64 {
+    points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
 impl Population<'_> {
@@ -92,16 +92,26 @@ impl Population<'_> {
             binding.end *= most / long;
             points = self.points(&binding);
         }
+        // Neither does a line between two of its points go through one.
+        for _ in 0..SHORTENED {
+            let Some(cut) = self.skin.lift_lines(&mut points) else { break };
+            if binding.own.is_some() {
+                break;
+            }
+            binding.end *= (cut as f64 / (points.len() - 1) as f64).max(0.1);
+            points = self.points(&binding);
+        }
+        let points = points.into_iter().map(DVec3::as_vec3).collect();
         let StrandBinding { thickness, cut, .. } = binding;
         let thickness = thickness * self.own_diameter(binding.main(), index);
         Hair { guide: binding.main() as u32, thickness, cut, points }
     }
 
-    fn points(&self, binding: &StrandBinding<'_>) -> Vec<Vec3> {
+    fn points(&self, binding: &StrandBinding<'_>) -> Vec<DVec3> {
         let last = self.spec.wisps.points - 1;
         let mut free = Free::NOWHERE;
         (0..=last)
-            .map(|k| self.point(binding, k as f64 / last as f64 * binding.end, &mut free).as_vec3())
+            .map(|k| self.point(binding, k as f64 / last as f64 * binding.end, &mut free))
             .collect()
     }
 

@@ -4,13 +4,13 @@
 use frisure_rod::Equilibrium;
 use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::attributes::put;
 use super::population::{Population, roots};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::{Head, Region, Texture};
+use crate::parallel;
 
 /// Adds to all drawn hairs of a hairstyle what programs that groom want to know: `closest_guides`,
 /// `guide_weights`, `id`, `group` and `root_uv`, as [`names`] has them.
@@ -23,14 +23,14 @@ pub fn describe(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
     let population = Population::new(hairstyle, head);
     let marks = head.landmarks();
     let roots = roots(hairstyle, head, 1);
-    let followed: Vec<([u32; 3], [f32; 3])> =
-        (roots.par_iter()).map(|(index, root)| most(&population.followed(root, *index))).collect();
+    let followed =
+        parallel::map_slice(&roots, |(index, root)| most(&population.followed(root, *index)));
     let (closest, weights) = followed.into_iter().unzip();
     let group = |p: DVec3| group(marks.region(p));
     let ids = roots.iter().map(|(index, _)| *index as u32).collect();
     let groups = roots.iter().map(|(_, root)| group(root.position)).collect();
     let texture = Texture::new(head);
-    let uvs = roots.par_iter().map(|(_, root)| texture.at(root.position)).collect();
+    let uvs = parallel::map_slice(&roots, |(_, root)| texture.at(root.position));
     put(strands, Domain::Strand, names::CLOSEST_GUIDES, AttributeValues::U32x3(closest));
     put(strands, Domain::Strand, names::GUIDE_WEIGHTS, AttributeValues::F32x3(weights));
     put(strands, Domain::Strand, names::ID, AttributeValues::U32(ids));
@@ -48,16 +48,17 @@ pub fn add_natural_strains(strands: &mut Strands, hairstyle: &Hairstyle) {
     else {
         return;
     };
-    let strains = (guides.par_iter().enumerate()).flat_map_iter(|(strand, &guide)| {
+    let strains = parallel::map(guides.len(), |strand| -> Vec<[f32; 3]> {
         let line = strands.strand(strand).points;
-        let natural = hairstyle.guides[guide as usize].rod.natural();
+        let natural = hairstyle.guides[guides[strand] as usize].rod.natural();
         let mut s = 0.0;
-        (0..line.len()).map(move |k| {
+        let at = |k: usize| {
             s += if k > 0 { f64::from(line[k - 1].distance(line[k])) } else { 0.0 };
             natural.at(s).as_vec3().to_array()
-        })
+        };
+        (0..line.len()).map(at).collect()
     });
-    let values = AttributeValues::F32x3(strains.collect());
+    let values = AttributeValues::F32x3(strains.concat());
     put(strands, Domain::Point, names::NATURAL_STRAIN, values);
 }
 
@@ -95,7 +96,7 @@ pub fn described_guides(hairstyle: &Hairstyle, head: &Head, points: usize) -> St
     put(&mut strands, Domain::Strand, names::AXIS_RATIO, ratios);
 
     let along = |f: &(dyn Fn(&Equilibrium) -> Vec<[f32; 3]> + Sync)| {
-        AttributeValues::F32x3(rest.guides.par_iter().flat_map_iter(f).collect())
+        AttributeValues::F32x3(parallel::map_slice(&rest.guides, f).concat())
     };
     let directors = |guide: &Equilibrium| {
         let frames = guide.sample(points.max(2));

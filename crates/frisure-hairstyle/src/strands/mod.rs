@@ -18,13 +18,13 @@ mod skin;
 mod splits;
 
 use frisure_strands::{AttributeValues, Domain, Strands, names};
-use glam::Vec3;
-use rayon::prelude::*;
+use glam::DVec3;
 
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::math::smooth_step;
+use crate::parallel;
 use crate::spec::{HairModel, HairstyleSpec, StrandContact};
 use crate::strand_contact::InteractionForm;
 use frisure_progress::{Cancelled, Progress, StageCounter};
@@ -116,13 +116,14 @@ pub fn strands(
         }
         _ => {
             let stage = StageCounter::new(progress, "drawing hairs", roots.len());
-            let hairs = roots.par_iter().map(|(index, root)| {
+            let hair = |i: usize| {
                 stage.check()?;
+                let (index, root) = &roots[i];
                 let hair = population.hair(root, *index);
                 stage.advance();
                 Ok(hair)
-            });
-            (hairs.collect::<Result<_, Cancelled>>()?, Simulation::default())
+            };
+            (parallel::try_map(roots.len(), hair)?, Simulation::default())
         }
     };
     let mut strands = assemble(&hairstyle.spec, &hairstyle.guides, &hairs);
@@ -150,36 +151,50 @@ pub fn add_sections(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
     };
     let population = Population::new(hairstyle, head);
     let points = hairstyle.spec.wisps.points;
-    let directors: Vec<[f32; 3]> = (guides.par_iter().enumerate())
-        .flat_map_iter(|(strand, &guide)| {
-            // Hairs of a wisp turn with their guide, at the same distance from the root.
-            let line = strands.strand(strand).points;
-            let length = line.windows(2).map(|p| p[0].distance(p[1])).sum::<f32>();
-            let wisp = population.wisp(guide as usize);
-            let step = f64::from(length) / wisp.length / (points - 1) as f64;
-            (0..points).map(move |k| wisp.director(k as f64 * step).to_array())
-        })
-        .collect();
+    let directors = parallel::map(guides.len(), |strand| -> Vec<[f32; 3]> {
+        // Hairs of a wisp turn with their guide, at the same distance from the root.
+        let line = strands.strand(strand).points;
+        let length = line.windows(2).map(|p| p[0].distance(p[1])).sum::<f32>();
+        let wisp = population.wisp(guides[strand] as usize);
+        let step = f64::from(length) / wisp.length / (points - 1) as f64;
+        (0..points).map(|k| wisp.director(k as f64 * step).to_array()).collect()
+    });
     let ratio = |&guide: &u32| {
         let section = hairstyle.guides[guide as usize].rod.spec().section;
         (section.a() / section.b()) as f32
     };
     let ratios = AttributeValues::F32(guides.iter().map(ratio).collect());
-    put(strands, Domain::Point, names::DIRECTOR, AttributeValues::F32x3(directors));
+    put(strands, Domain::Point, names::DIRECTOR, AttributeValues::F32x3(directors.concat()));
     put(strands, Domain::Strand, names::AXIS_RATIO, ratios);
 }
 
-/// Deepest that a point of the strands, other than a root, is inside the body of a head (m); 0 if
-/// none is.
+/// Deepest that the strands are inside the body of a head (m), other than in their first 2 mm, where the follicle is; 0 if none is.
+///
+/// Points are measured, and the lines between them every 2 mm where they could be inside.
 #[must_use]
 pub fn penetration(strands: &Strands, head: &Head) -> f64 {
-    (0..strands.len())
-        .into_par_iter()
-        .map(|i| {
-            let depth = |p: &Vec3| -head.signed_distance().value(p.as_dvec3());
-            strands.strand(i).points.iter().skip(1).map(depth).fold(0.0, f64::max)
-        })
-        .reduce(|| 0.0, f64::max)
+    let height = |p: DVec3| head.signed_distance().value(p);
+    let depths = parallel::map(strands.len(), |i| {
+        let points = strands.strand(i).points;
+        let Some(root) = points.first() else { return 0.0 };
+        let (mut before, mut above) = (root.as_dvec3(), 0.0);
+        let (mut deepest, mut arc) = (0.0_f64, 0.0);
+        for point in &points[1..] {
+            let point = point.as_dvec3();
+            let (length, here) = (before.distance(point), height(point));
+            deepest = deepest.max(-here);
+            // No point of the piece is nearer to the body than this: a distance changes by a way at most.
+            let lowest = 0.5 * (above + here - length);
+            if lowest < -deepest {
+                for share in skin::looked_at(length, arc) {
+                    deepest = deepest.max(-height(before.lerp(point, share)));
+                }
+            }
+            (before, above, arc) = (point, here, arc + length);
+        }
+        deepest
+    });
+    depths.into_iter().fold(0.0, f64::max)
 }
 
 /// The strands, each as thick as its guide.

@@ -2,7 +2,6 @@
 
 use frisure_rod::Equilibrium;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::binding::{StrandBinding, StrandVariation};
 use super::gathering::Tier;
@@ -20,6 +19,7 @@ use crate::implantation::Root;
 use crate::implantation::rim::Rim;
 use crate::math::Grid;
 use crate::math::smooth_step;
+use crate::parallel;
 use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
 use crate::wisps::BoundStrands;
@@ -118,8 +118,8 @@ pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, stride: usize) -> Vec<(u
     // Hair of a groom is rooted where the groom has it.
     let own = placement.bound(spec, head).is_some();
     let place = |root: &Root| if own { *root } else { layout.gathered(head, *root) };
-    let gathered = |(index, root): (usize, &Root)| (index, place(root));
-    roots.par_iter().enumerate().step_by(stride.max(1)).map(gathered).collect()
+    let stride = stride.max(1);
+    parallel::map(roots.len().div_ceil(stride), |k| (k * stride, place(&roots[k * stride])))
 }
 
 /// How hairs would gather into locks if the hair that was planned were soaked: the sizes of locks that hair is divided into, which
@@ -145,7 +145,7 @@ impl<'a> Population<'a> {
         let patch = spacing / std::f64::consts::PI.sqrt();
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
         let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, beyond);
-        let wisps: Vec<Wisp> = rest.guides.par_iter().map(wisp).collect();
+        let wisps = parallel::map_slice(&rest.guides, wisp);
         let bound = hairstyle.placement.bound(spec, head);
         let planned = styling.planned.iter().map(|g| g.rod.length()).sum::<f64>();
         let plan = Plan {

@@ -44,6 +44,27 @@ const MOST_STEPS: usize = 16;
 /// Least slope of the distance field that a step out of the skin takes for true. Chosen: a step is at most four times the depth.
 const FLATTEST: f64 = 0.25;
 
+/// Length (m) of the pieces in which the line between two points of a hair is looked at, where it could be in the body. Chosen: half
+/// of the thickness of an ear.
+const PIECE: f64 = 2e-3;
+
+/// Depth (m) of such a line that is left as it is, and its height once it is lifted. Chosen: below what is reported as hair in the
+/// head; most hairs have no such line.
+const LEFT: f64 = 2e-4;
+const LIFTED: f64 = 2e-4;
+
+/// How often the lines of a hair are lifted at most, and how far (m) at a time. Chosen by trial: around an ear ten are enough.
+const LIFTS: usize = 24;
+const LARGEST_LIFT: f64 = 3e-3;
+
+/// Where (shares of it) a line of some length (m) between two points of a hair is looked at, which begins at `arc` (m): not where the hair
+/// leaves its follicle.
+pub(super) fn looked_at(length: f64, arc: f64) -> impl Iterator<Item = f64> {
+    let pieces = (length / PIECE).ceil();
+    let shares = (1..pieces as usize).map(move |k| k as f64 / pieces);
+    shares.filter(move |share| arc + share * length >= PIECE)
+}
+
 /// A ball (m) known to be free of the body and of its layers: most points need no look-up.
 pub(super) struct Free {
     centre: DVec3,
@@ -102,5 +123,126 @@ impl Skin<'_> {
             p += gradient.normalize_or(root.normal) * ((least - distance) / slope);
         }
         p
+    }
+
+    /// Lifts the lines between the points of a hair out of the body, where they cut an edge of it: both of its ends, as far as it is deep.
+    /// Points that are out already may be on two sides of an ear: then it may end in vain, with the first line that still cuts.
+    pub(super) fn lift_lines(&self, points: &mut [DVec3]) -> Option<usize> {
+        if self.body == Body::None || points.len() < 2 {
+            return None;
+        }
+        let mut left = None;
+        let mut free = Free::NOWHERE;
+        // The least that points are out by: no point of a line is lower than half of what its ends have more than it is long.
+        let mut heights: Vec<f64> = points.iter().map(|&p| self.height(p, &mut free)).collect();
+        for _ in 0..LIFTS {
+            let mut cut = None;
+            let mut arc = 0.0;
+            for k in 0..points.len() - 1 {
+                let length = points[k].distance(points[k + 1]);
+                let lowest = (0.5 * (heights[k] + heights[k + 1] - length)).min(heights[k + 1]);
+                if lowest < -LEFT
+                    && let Some((share, depth, out)) = self.deepest(points[k], points[k + 1], arc)
+                {
+                    // Least squares: the line rises by `lift` there. The root stays.
+                    let (a, b) = (if k == 0 { 0.0 } else { 1.0 - share }, share);
+                    let lift = (depth + LIFTED).min(LARGEST_LIFT) / (a * a + b * b).max(0.25);
+                    points[k] += out * (a * lift);
+                    points[k + 1] += out * (b * lift);
+                    for end in [k, k + 1] {
+                        heights[end] = self.head.signed_distance().value(points[end]);
+                    }
+                    cut = cut.or(Some(k));
+                }
+                arc += length;
+            }
+            left = cut;
+            if cut.is_none() {
+                break;
+            }
+        }
+        left
+    }
+
+    /// How far (m) a point is out of the body at least.
+    fn height(&self, p: DVec3, free: &mut Free) -> f64 {
+        if free.holds(p) {
+            return free.radius - p.distance(free.centre);
+        }
+        let height = self.head.signed_distance().value(p);
+        *free = Free { centre: p, radius: height };
+        height
+    }
+
+    /// Where the line between two points (m), from `arc` (m) on, is deepest in the body, if that is more than is left there: its share
+    /// of the line, its depth (m), and the way out (unit).
+    fn deepest(&self, from: DVec3, to: DVec3, arc: f64) -> Option<(f64, f64, DVec3)> {
+        let mut deepest = None;
+        let mut depth = LEFT;
+        // A lift of a line may have moved its end into another side of an ear.
+        let length = from.distance(to);
+        let end = (arc + length >= PIECE).then_some(1.0);
+        for share in looked_at(length, arc).chain(end) {
+            let (height, out) = self.head.signed_distance().value_gradient(from.lerp(to, share));
+            if -height > depth {
+                depth = -height;
+                deepest = Some((share, depth, out.normalize_or_zero()));
+            }
+        }
+        deepest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_cut_an_ear_are_lifted_out_of_it() {
+        let head = crate::head::test_shapes::mannequin();
+        let skin = Skin { head, body: Body::SignedDistance, widest: 1e-3 };
+        let field = head.signed_distance();
+        let out = |p: DVec3| {
+            let mut p = p;
+            for _ in 0..40 {
+                let (distance, gradient) = field.value_gradient(p);
+                if distance >= 4e-4 {
+                    break;
+                }
+                p += gradient.normalize_or_zero() * (5e-4 - distance);
+            }
+            p
+        };
+        let depth = |points: &[DVec3]| {
+            let lines = points
+                .windows(2)
+                .flat_map(|p| (0..20).map(|k| p[0].lerp(p[1], f64::from(k) / 20.0)));
+            lines.map(|p| -field.value(p)).fold(0.0, f64::max)
+        };
+        let (mut cut, mut left) = (0, 0);
+        // Hair that comes down before, through and behind the ear, its points out of the head; where they are close, one side of the ear
+        // is lifted into the other.
+        for (apart, x, k) in [0.012, 0.008, 0.0055]
+            .into_iter()
+            .flat_map(|apart| [0.068, 0.071, 0.074].map(|x| (apart, x)))
+            .flat_map(|(apart, x)| (0..40).map(move |k| (apart, x, f64::from(k))))
+        {
+            let count = (0.1 / apart) as usize;
+            let mut points: Vec<DVec3> = (0..count)
+                .map(|i| out(DVec3::new(x, -0.03 + 0.0015 * k, 0.05 - apart * i as f64)))
+                .collect();
+            if depth(&points) <= 5e-4 {
+                continue;
+            }
+            cut += 1;
+            match skin.lift_lines(&mut points) {
+                None => assert!(depth(&points) < 3e-4, "{apart} {x} {k}: {}", depth(&points)),
+                Some(line) => {
+                    left += 1;
+                    assert!(line < count - 1);
+                }
+            }
+        }
+        assert!(cut >= 4 && 2 * left <= cut, "{left} of {cut}");
     }
 }

@@ -1,11 +1,10 @@
 //! Where drawn hairs have been cut.
 
-use rayon::prelude::*;
-
 use crate::hairstyle::Ends;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::implantation::Root;
+use crate::parallel;
 use crate::strands::{Population, roots};
 
 impl Ends {
@@ -21,17 +20,15 @@ impl Ends {
         let population = Population::new(hairstyle, head);
         let roots = roots(hairstyle, head, stride);
         let before = hairstyle.styling.ends.as_ref();
-        let cut: Vec<(usize, u32, f32)> = (roots.par_iter())
-            .map(|&(index, ref root)| {
-                let wisp = match before {
-                    Some(ends) => ends.wisps[index],
-                    None => population.main(root, index) as u32,
-                };
-                let chosen = chosen[wisp as usize];
-                let left = || left(&population, root, index, wisp as usize).max(STUBBLE) as f32;
-                (index, wisp, if chosen { left() } else { f32::INFINITY })
-            })
-            .collect();
+        let cut: Vec<(usize, u32, f32)> = parallel::map_slice(&roots, |&(index, ref root)| {
+            let wisp = match before {
+                Some(ends) => ends.wisps[index],
+                None => population.main(root, index) as u32,
+            };
+            let chosen = chosen[wisp as usize];
+            let left = || left(&population, root, index, wisp as usize).max(STUBBLE) as f32;
+            (index, wisp, if chosen { left() } else { f32::INFINITY })
+        });
         let count = hairstyle.drawn();
         let mut limits = before.map_or(vec![f32::INFINITY; count], |ends| ends.limits.to_vec());
         let mut wisps = before.map_or(vec![0; count], |ends| ends.wisps.to_vec());
@@ -56,7 +53,7 @@ impl Ends {
     pub(super) fn replanted(self, hairstyle: &Hairstyle, head: &Head) -> Self {
         let population = Population::new(hairstyle, head);
         let wisp = |(index, root): &(usize, Root)| population.main(root, *index) as u32;
-        let wisps = roots(hairstyle, head, 1).par_iter().map(wisp).collect();
+        let wisps = parallel::map_slice(&roots(hairstyle, head, 1), wisp).into();
         Self { wisps, ..self }
     }
 

@@ -3,7 +3,6 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::error::StyleError;
 use super::settle::{Act, DraftRest};
@@ -11,6 +10,7 @@ use super::taut::taut_length;
 use crate::equilibrium::Effort;
 use crate::hairstyle::{Fastener, Grip, Hairstyle, Styling};
 use crate::head::Head;
+use crate::parallel;
 
 /// Fraction of the cross section in a bundle that is hair. Chosen: hexagonal packing of round fibres has 0.91, a tie does not
 /// order them.
@@ -103,19 +103,18 @@ pub(super) fn gathered(
     let hairs = before.grown() / before.guides.len() as f64;
     let area = |i: usize| hairs * before.guides[i].rod.spec().section.area() / PACKING;
     let (middle, _) = (to.bundle)(0.0);
-    let mut ways: Vec<(usize, f64)> = (0..chosen.len())
-        .into_par_iter()
-        .filter(|&i| chosen[i])
-        .map(|i| (i, taut_length(head, before.guides[i].root.position, middle, LYING)))
-        .collect();
+    let chosen: Vec<usize> = (0..chosen.len()).filter(|&i| chosen[i]).collect();
+    let mut ways: Vec<(usize, f64)> = parallel::map_slice(&chosen, |&i| {
+        (i, taut_length(head, before.guides[i].root.position, middle, LYING))
+    });
     let long_enough = |&(i, way): &(usize, f64)| {
         before.guides[i].rod.length() >= way * (1.0 + SLACK) + SHORTEST_TAIL
     };
     let nearest = ways.iter().map(|(_, way)| *way).fold(f64::INFINITY, f64::min);
     ways.retain(long_enough);
     if ways.is_empty() {
-        let longest = (0..chosen.len()).filter(|&i| chosen[i]);
-        let longest = longest.map(|i| before.guides[i].rod.length()).fold(0.0, f64::max);
+        let lengths = chosen.iter().map(|&i| before.guides[i].rod.length());
+        let longest = lengths.fold(0.0, f64::max);
         return Err(StyleError::NothingGathered { needed: nearest + SHORTEST_TAIL, longest });
     }
     // 2. Where in the bundle each lies: the nearest inside.
@@ -124,16 +123,13 @@ pub(super) fn gathered(
     let (middle, axis) = (to.bundle)(radius);
     let across = axis.any_orthonormal_vector();
     let bundle = Bundle { middle, axes: [across, axis.cross(across)], radius };
-    let places: Vec<(usize, DVec3, f64)> = ways
-        .par_iter()
-        .enumerate()
-        .map(|(rank, &(i, _))| {
-            let root = before.guides[i].root.position;
-            let to = bundle.point(rank, ways.len(), root);
-            let way = taut_length(head, root, to, LYING).max(SHORTEST) * (1.0 + SLACK);
-            (i, to, (way / before.guides[i].rod.length()).min(1.0))
-        })
-        .collect();
+    let places: Vec<(usize, DVec3, f64)> = parallel::map(ways.len(), |rank| {
+        let (i, _) = ways[rank];
+        let root = before.guides[i].root.position;
+        let to = bundle.point(rank, ways.len(), root);
+        let way = taut_length(head, root, to, LYING).max(SHORTEST) * (1.0 + SLACK);
+        (i, to, (way / before.guides[i].rod.length()).min(1.0))
+    });
     // 3. Lifted off the head first, then held there.
     let (lifted, by) = ((to.lifted)(axis), (to.by)(middle));
     let alone = Effort { sweeps: 0, ..Effort::FULL };

@@ -2,13 +2,13 @@
 
 use frisure_rod::Equilibrium;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::error::StyleError;
 use super::height::Height;
 use crate::guides::Guide;
 use crate::head::{Head, Landmarks};
 use crate::implantation::Tape;
+use crate::parallel;
 use crate::spec::{InvalidSpec, Place, range};
 
 /// A choice of wisps.
@@ -145,7 +145,7 @@ impl Selection {
         rest: &[Equilibrium],
     ) -> Result<Vec<bool>, StyleError> {
         let rooted = |inside: &(dyn Fn(&Guide) -> bool + Sync)| -> Vec<bool> {
-            guides.par_iter().map(inside).collect()
+            parallel::map_slice(guides, inside)
         };
         let marks = head.landmarks();
         Ok(match self {
@@ -165,7 +165,7 @@ impl Selection {
                 let touched = |p: DVec3| spots.iter().any(|s| s.distance(p) <= *radius);
                 rooted(&|g| touched(g.root.position))
             }
-            Self::Lasso(lasso) => rest.par_iter().map(|r| lasso.holds(head, r)).collect(),
+            Self::Lasso(lasso) => parallel::map_slice(rest, |r| lasso.holds(head, r)),
             Self::Any(parts) => join(parts, false, head, guides, rest)?,
             Self::All(parts) => join(parts, true, head, guides, rest)?,
             Self::Not(part) => {

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use frisure_rod::{Equilibrium, InvalidQuantity};
-use rayon::prelude::*;
+use frisure_rod::Equilibrium;
 
 use super::apply_state;
 use super::error::StyleError;
@@ -14,6 +13,7 @@ use crate::hairstyle::Hairstyle;
 use crate::hairstyle::Rest;
 use crate::hairstyle::{Grip, Lay, Styling, WispState};
 use crate::head::Head;
+use crate::parallel;
 use frisure_progress::Progress;
 
 /// What an operation acts on: a hairstyle, its head, and how the result is brought to rest.
@@ -97,13 +97,10 @@ impl<'a> Act<'a> {
         if !changed.contains(&true) {
             return Ok(Hairstyle { styling, ..before.clone() });
         }
-        let guides: Vec<Guide> = (0..before.guides.len())
-            .into_par_iter()
-            .map(|i| match changed[i] {
-                false => Ok(before.guides[i].clone()),
-                true => apply_state::guide(&before.spec, before.placement.area(), i, &styling),
-            })
-            .collect::<Result<_, InvalidQuantity>>()?;
+        let guides: Vec<Guide> = parallel::try_map(before.guides.len(), |i| match changed[i] {
+            false => Ok(before.guides[i].clone()),
+            true => apply_state::guide(&before.spec, before.placement.area(), i, &styling),
+        })?;
         let changes = self.changes(&styling, &changed, change);
         let rest = match self.draft {
             None => self.exact_rest(&styling, &guides, &changed, changes)?,

@@ -5,10 +5,10 @@
 
 use frisure_strands::Strands;
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::wisp::Wisp;
 use crate::math::Grid;
+use crate::parallel;
 
 /// Most guides that one strand is bound to, and among how many of the nearest they are searched. Chosen by trial.
 const BINDINGS: usize = 3;
@@ -77,13 +77,10 @@ impl BoundStrands {
             roots.iter().fold((roots[0], roots[0]), |(l, h), p| (l.min(*p), h.max(*p)));
         let spacing = ((high - low).length() / (roots.len() as f64).sqrt()).max(1e-3);
         let grid = Grid::new(&roots, spacing);
-        let bindings = (0..hairs.len())
-            .into_par_iter()
-            .map(|hair| {
-                let own = BoundStrand::new(hairs.strand(hair).points.iter().map(|p| p.as_dvec3()));
-                bindings(&own, &grid.nearest(own.points[0], SOUGHT, &roots), &wisps)
-            })
-            .collect();
+        let bindings = parallel::map(hairs.len(), |hair| {
+            let own = BoundStrand::new(hairs.strand(hair).points.iter().map(|p| p.as_dvec3()));
+            bindings(&own, &grid.nearest(own.points[0], SOUGHT, &roots), &wisps)
+        });
         Self { hairs: hairs.clone(), bindings, wisps }
     }
 

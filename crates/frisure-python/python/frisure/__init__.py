@@ -16,8 +16,9 @@
 - `frisure.batch` computes many heads that vary, as a table of Arrow.
 - `frisure.presets` has a scene for each hair type.
 
-Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error is a `FrisureError`; those
-about what was asked for are `ValueError`s, too.
+Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error about an argument is a
+`FrisureError`; those about what was asked for are `ValueError`s, too. A key, an attribute or an index that is not there is a
+`KeyError`, an `AttributeError` or an `IndexError`.
 """
 
 import os as _os
@@ -27,7 +28,7 @@ from frisure._batch import batch
 from frisure._frisure import __version__
 from frisure._frisure import after_fork as _after_fork
 from frisure.derivatives import HeadDerivatives
-from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
+from frisure.errors import ArgumentError, ArgumentTypeError, FailedError, FrisureError, SceneError, SceneNotFoundError
 from frisure.fits import Fits, fit
 from frisure.hairstyle import Hairstyle, predict
 from frisure.photos import Measured, measure
@@ -37,6 +38,7 @@ from frisure.strands import Strands
 
 __all__ = [
     "ArgumentError",
+    "ArgumentTypeError",
     "FailedError",
     "Fits",
     "FrisureError",

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 from frisure import _frisure
-from frisure._check import whole
-from frisure.errors import ArgumentError, FailedError
+from frisure._check import names, path, text, whole
+from frisure.errors import ArgumentTypeError, FailedError
 from frisure.hairstyle import Progress
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def batch(
     spec: BatchSource,
     folder: str | os.PathLike[str] | None = None,
     *,
-    columns: Sequence[str] | None = None,
+    columns: Iterable[str] | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> pyarrow.Table:
@@ -54,43 +54,41 @@ def batch(
         raise FailedError("this build of frisure has no batches: it was made without the feature `batch`")
     if threads is not None:
         threads = whole("threads", threads, 1, 4096)
-    if isinstance(columns, str) or columns is not None and not all(isinstance(name, str) for name in columns):
-        raise ArgumentError(f"columns is {columns!r}; it must be a list of names")
+    wanted = names("columns", columns)
     source = _source(spec)
     if folder is not None:
-        return _computed(source, Path(folder).absolute(), True, columns, threads, progress)
+        return _computed(source, path("folder", folder).absolute(), True, wanted, threads, progress)
     with tempfile.TemporaryDirectory(prefix="frisure-batch-") as temporary:
-        return _computed(source, Path(temporary), False, columns, threads, progress)
+        return _computed(source, Path(temporary), False, wanted, threads, progress)
 
 
 def _source(spec: Any) -> Any:
     """A path, or a description with the folder that its paths are relative to."""
-    if isinstance(spec, Mapping) or isinstance(spec, str) and "\n" in spec:
+    if isinstance(spec, Mapping):
         return spec, Path.cwd()
+    if isinstance(spec, str) and "\n" in spec:
+        return text("spec", spec), Path.cwd()
     if isinstance(spec, (str, os.PathLike)):
         return Path(spec)
-    raise TypeError(f"spec is of the type {type(spec).__name__}; it must be a dict, a path or a text")
+    raise ArgumentTypeError(f"spec is of the type {type(spec).__name__}; it must be a dict, a path or a text")
 
 
 def _computed(
     source: Any,
     folder: Path,
     lasts: bool,
-    columns: Sequence[str] | None,
+    columns: list[str] | None,
     threads: int | None,
     progress: Progress | None,
 ) -> pyarrow.Table:
     import pyarrow
     import pyarrow.parquet
 
-    _frisure.run_batch(source, folder, lasts, threads, progress)
+    _frisure.run_batch(source, folder, lasts, columns, threads, progress)
     tables = []
-    for path in sorted(folder.glob("part-*.parquet")):
+    for part in sorted(folder.glob("part-*.parquet")):
         # Read whole: the folder may be removed.
-        file = pyarrow.parquet.ParquetFile(path, memory_map=False)
-        unknown = sorted(set(columns or ()) - set(file.schema_arrow.names))
-        if unknown:
-            raise ArgumentError(f"columns has {unknown[0]!r}; there are {', '.join(file.schema_arrow.names)}")
-        tables.append(file.read(columns=None if columns is None else list(columns)))
+        file = pyarrow.parquet.ParquetFile(part, memory_map=False)
+        tables.append(file.read(columns=columns))
         file.close()
     return pyarrow.concat_tables(tables)

@@ -3,29 +3,88 @@
 from __future__ import annotations
 
 import operator
+import os
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from frisure._frisure import check_room
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 
 Float64 = NDArray[np.float64]
 
 
 def array(name: str, value: Any) -> Float64:
     """Real numbers as aligned float64, without a copy where they are that already."""
+    unmasked(name, value)
     try:
         found = np.asarray(value)
     except ValueError as error:
         raise ArgumentError(f"{name} is no array of numbers: {error}") from None
     if found.dtype.kind not in "fiu":
-        raise TypeError(f"{name} has the dtype {found.dtype}; it must be real numbers in SI units")
+        raise ArgumentTypeError(f"{name} has the dtype {found.dtype}; it must be real numbers in SI units")
     if found.dtype != np.float64 or not found.flags.aligned:
         check_room(f"numbers of {name}", found.size, 8)
     # A field of a packed record is not aligned.
     return np.require(found, np.float64, ["ALIGNED"])
+
+
+def unmasked(name: str, value: Any) -> None:
+    """Refuses arrays of `numpy.ma`, and lists of them, in which a value is masked: NumPy would give the number beneath the mask."""
+    masked = np.ma.MaskedArray
+    parts = value if isinstance(value, (list, tuple)) else [value]
+    if any(isinstance(part, masked) and np.ma.is_masked(part) for part in parts):
+        raise ArgumentError(f"{name} has masked values; leave them out, or fill them (`filled()`)")
+
+
+def flag(name: str, value: Any) -> bool:
+    """A bool of Python or NumPy."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ArgumentTypeError(f"{name} is {shown(value)}; it must be True or False")
+    return bool(value)
+
+
+def text(name: str, value: Any, allowed: str = "a text") -> str:
+    """A text that has UTF-8; `allowed` says which."""
+    if not isinstance(value, str):
+        raise ArgumentTypeError(f"{name} is {shown(value)}; it must be {allowed}")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ArgumentError(f"{name} is {shown(value)}; it has a lone surrogate, which is no character") from None
+    return value
+
+
+def path(name: str, value: Any) -> Path:
+    """The path of a file or a folder."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise ArgumentTypeError(f"{name} is {shown(value)}; it must be a path")
+    return Path(value)
+
+
+def names(name: str, value: Any) -> list[str] | None:
+    """A list of names, from any iterable of texts, or None."""
+    if value is None:
+        return None
+    try:
+        found = None if isinstance(value, str) else list(value)
+    except TypeError:
+        found = None
+    if found is None or not all(isinstance(item, str) for item in found):
+        raise ArgumentError(f"{name} is {shown(value)}; it must be a list of names, or None for all")
+    return found
+
+
+def shown(value: Any) -> str:
+    """A value as errors show it."""
+    try:
+        found = repr(value)
+    except ValueError:
+        # Python writes no whole number of more than 4300 digits.
+        return f"of the type {type(value).__name__}"
+    return found if len(found) <= 200 else f"{found[:200]}…"
 
 
 def whole(name: str, value: Any, least: int, most: int | None = None) -> int:
@@ -36,15 +95,19 @@ def whole(name: str, value: Any, least: int, most: int | None = None) -> int:
             raise TypeError
         number = operator.index(value)
     except TypeError:
-        raise ArgumentError(f"{name} is {value!r}; it must be a whole number, {allowed}") from None
+        raise ArgumentError(f"{name} is {shown(value)}; it must be a whole number, {allowed}") from None
     if number < least or most is not None and number > most:
-        raise ArgumentError(f"{name} is {value!r}; it must be {allowed}")
+        raise ArgumentError(f"{name} is {shown(value)}; it must be {allowed}")
     return number
 
 
 def real(name: str, value: Any, allowed: str, least: float = -np.inf, most: float = np.inf) -> float:
     """A finite number in a range, which `allowed` tells."""
     number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-    if not (number and np.isfinite(value) and least <= value <= most):
-        raise ArgumentError(f"{name} is {value!r}; it must be {allowed}")
-    return float(value)
+    try:
+        found = float(value) if number else np.nan
+    except OverflowError:
+        found = np.inf
+    if not (np.isfinite(found) and least <= found <= most):
+        raise ArgumentError(f"{name} is {shown(value)}; it must be {allowed}")
+    return found

@@ -218,6 +218,7 @@ def run_batch(
     spec: str | os.PathLike[str] | tuple[str | Mapping[str, Any], str | os.PathLike[str]],
     folder: str | os.PathLike[str],
     lasts: bool,
+    columns: list[str] | None,
     threads: int | None,
     progress: _Progress | None,
 ) -> tuple[int, int, int, bool]: ...

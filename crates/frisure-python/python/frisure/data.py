@@ -12,7 +12,7 @@ A head is a dict of NumPy arrays, numbers and texts by the names of the columns,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -21,6 +21,8 @@ from typing import Any, Literal, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from frisure._check import names as _names
+from frisure._check import path as _path
 from frisure._check import whole
 from frisure._frisure import read_png
 from frisure.errors import ArgumentError
@@ -53,7 +55,7 @@ _DIGEST = b"frisure.batch"
 
 def heads(
     folder: Folder,
-    columns: Optional[Sequence[str]] = None,
+    columns: Optional[Iterable[str]] = None,
     *,
     shuffle: Optional[int] = None,
     shard: tuple[int, int] = (0, 1),
@@ -77,7 +79,7 @@ def heads(
 
 def views(
     folder: Folder,
-    columns: Optional[Sequence[str]] = None,
+    columns: Optional[Iterable[str]] = None,
     *,
     shuffle: Optional[int] = None,
     shard: tuple[int, int] = (0, 1),
@@ -94,7 +96,7 @@ def views(
 
 def torch_dataset(
     folder: Folder,
-    columns: Optional[Sequence[str]] = None,
+    columns: Optional[Iterable[str]] = None,
     *,
     per: Literal["head", "view"] = "head",
     shuffle: Optional[int] = None,
@@ -167,11 +169,10 @@ class _Source:
     has_views: bool
 
     @staticmethod
-    def read(folder: Folder, columns: Optional[Sequence[str]]) -> _Source:
-        if isinstance(columns, str) or columns is not None and not all(isinstance(name, str) for name in columns):
-            raise ArgumentError(f"columns is {columns!r}; it must be a list of names, or None for all")
+    def read(folder: Folder, columns: Optional[Iterable[str]]) -> _Source:
+        wanted = _names("columns", columns)
         parts, known, digest = [], set[str](), None
-        for path in sorted(Path(folder).glob("part-*.parquet")):
+        for path in sorted(_path("folder", folder).glob("part-*.parquet")):
             file = _open(path)
             found = (file.metadata.metadata or {}).get(_DIGEST)
             if found is None:
@@ -185,7 +186,7 @@ class _Source:
             raise ArgumentError(f"`{folder}` has no heads: `frisure batch BATCH -o {folder}` writes them")
         has_views = parts[0].views.exists()
         seen = set(_open(parts[0].views).schema_arrow.names) if has_views else set()
-        chosen = known | seen if columns is None else set(columns)
+        chosen = known | seen if wanted is None else set(wanted)
         unknown = sorted(chosen - known - seen)
         if unknown:
             names = ", ".join(sorted(known | seen))

@@ -1,8 +1,7 @@
 """Exact derivatives of a head of hair at rest.
 
 >>> import frisure, numpy as np
->>> hair = frisure.predict({"hair": {"type": "caucasian-wavy"}, "wisps": {"count": 10, "hairs": 100},
-...                         "equilibrium": {"element": "helix"}})
+>>> hair = frisure.predict({"hair": {"type": "caucasian-wavy"}, "wisps": {"count": 10, "hairs": 100}})
 >>> at_rest = hair.derivatives()
 >>> loss = np.zeros_like(at_rest.points)
 >>> loss[at_rest.offsets[1:] - 1, 2] = 1           # the sum of the heights of all tips
@@ -30,16 +29,20 @@ Float64 = NDArray[np.float64]
 Progress = Callable[[str, float], object]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class HeadGradient:
     """The derivatives of a loss by what a head of G guides with E elements in all is made of; units are those of the loss over those given.
 
     - `natural_strain` (G, 3), loss per rad/m: by a change of the natural strain that is the same all along a guide; `element_strain` (E, 3) by that
       of each element, guide after guide.
     - `youngs_modulus`, `shear_modulus` (G,), loss per Pa; `density` (G,), loss per kg/m³; `diameter` (G,), loss per m; `axis_ratio` (G,), loss per 1.
-    - `gravity_vector` (G, 3), loss per m/s²: by the acceleration that each guide feels (world); the sum is that of gravity.
+    - `gravity_vector` (G, 3), loss per m/s²: by the acceleration that pulls each guide (world), by its weight alone.
     - `hair_stiffness`, `skin_stiffness`, loss per Pa: by `contact.hair_stiffness` and `contact.stiffness` of the scene.
     - `rotation` (3,), loss per rad: by a rotation of the head about the origin with all that holds its hair, while gravity stays.
+
+    The sums over the guides of `gravity_vector`, `density` and the moduli are not the derivatives by those keys of a scene: from them the program
+    also derives the force that holds combed hair (`implantation.hold`, in weights of the hair), the thickness of wisps and the bed beneath them, which are
+    held here. They are where neither is: with `implantation.hold = 0` and `contact.volume = 0`.
 
     Two gradients are equal if they are the same object: compare their arrays.
     """
@@ -56,8 +59,11 @@ class HeadGradient:
     skin_stiffness: float
     rotation: Float64
 
+    def __repr__(self) -> str:
+        return f"<frisure.HeadGradient of {len(self.density)} guides with {len(self.element_strain)} elements>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class HeadMotion:
     """How the N nodes of all guides of a head move along a change, to first order.
 
@@ -67,6 +73,9 @@ class HeadMotion:
 
     points: Float64
     frames: Float64
+
+    def __repr__(self) -> str:
+        return f"<frisure.HeadMotion of {len(self.points)} nodes>"
 
 
 class HeadDerivatives:

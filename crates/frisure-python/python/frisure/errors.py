@@ -15,6 +15,10 @@ class ArgumentError(FrisureError, ValueError):
     """A request that is impossible: the text names the argument, its value and what is allowed."""
 
 
+class ArgumentTypeError(ArgumentError, TypeError):
+    """A value of a type that is not taken: a `TypeError`, too."""
+
+
 class FailedError(FrisureError, RuntimeError):
     """A possible request that failed for another reason, such as a full disk."""
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from frisure._check import real, whole
+from frisure._check import real, unmasked, whole
 from frisure._frisure import check_room, fit_fibres
 from frisure.errors import ArgumentError
 from frisure.strands import Strands
@@ -232,6 +232,7 @@ def _fits(found: dict[str, Any], count: int, knots: int) -> Fits:
 
 def _array(name: str, value: Any) -> Float64:
     """A float64 array of real numbers, as it is if it is one."""
+    unmasked(name, value)
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "fiu":
@@ -254,13 +255,13 @@ def _lines(name: str, value: Any, columns: int) -> tuple[Float64, NDArray[np.int
         offsets = np.cumsum([0, *(len(row) for row in rows)], dtype=np.int64)
         check_room("points", int(offsets[-1]), POINT)
         return np.concatenate(rows), offsets
-    array = _array(name, value)
+    given = array = _array(name, value)
     if array.shape == (0,):
         return np.zeros((0, columns)), np.zeros(1, dtype=np.int64)
     if array.ndim == 2:
         array = array[np.newaxis]
     if array.ndim != 3 or array.shape[2] != columns:
-        raise ArgumentError(f"{name} has the shape {array.shape}; it must be (H, P, {columns}) or (P, {columns}), or a list of those")
+        raise ArgumentError(f"{name} has the shape {given.shape}; it must be (H, P, {columns}) or (P, {columns}), or a list of those")
     count, points = array.shape[:2]
     check_room("points", count * points, POINT)
     return array.reshape(-1, columns), np.arange(count + 1, dtype=np.int64) * points
@@ -330,6 +331,7 @@ def _long_enough(
 
 
 def _integers(name: str, value: Any, count: int) -> NDArray[np.int64]:
+    unmasked(name, value)
     array = np.asarray(value)
     if array.dtype.kind not in "iu":
         raise ArgumentError(f"{name} has the type {array.dtype}; it must have integers")

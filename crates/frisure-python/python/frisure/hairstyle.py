@@ -8,16 +8,16 @@ import math
 import os
 import sys
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from frisure._check import real, whole
+from frisure._check import flag, real, whole
+from frisure._check import path as _path
 from frisure._frisure import Prediction, render, render_png, save_picture
 from frisure.derivatives import HeadDerivatives
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 from frisure.scene import Scene, SceneSource
 from frisure.strands import Strands
 
@@ -51,7 +51,7 @@ def predict(scene: SceneSource, *, like: Hairstyle | None = None, progress: Prog
     checked = scene.copy() if isinstance(scene, Scene) else Scene(scene)
     if like is not None:
         if not isinstance(like, Hairstyle):
-            raise TypeError(f"like is of the type {type(like).__name__}; it must be a Hairstyle")
+            raise ArgumentTypeError(f"like is of the type {type(like).__name__}; it must be a Hairstyle")
         return Hairstyle(checked, like._prediction.follow(checked._core, progress))
     return Hairstyle(checked, Prediction.of(checked._core, progress))
 
@@ -122,7 +122,7 @@ class Hairstyle:
         formats are those of `docs/formats.md`. `.png` and `.exr` are a preview in the scene's size, `.json` is the
         report and `.toml` the scene. The bytes are those of the command line.
         """
-        file = Path(path)
+        file, fibres = _path("path", path), flag("fibres", fibres)
         kind = file.suffix.lower()
         if kind == ".toml":
             self._scene.save(file)
@@ -166,6 +166,7 @@ class Hairstyle:
         noise = real("noise", noise, "a number between 0 and 100 percent", 0, 100)
         if clamp is not None:
             clamp = real("clamp", clamp, "a number above 0, or None", np.nextafter(0, 1))
+        alpha = flag("alpha", alpha)
         tracing = (paths, 0.01 * noise, bounces, clamp) if quality == "final" else None
         turned = None if azimuth is None else math.radians(real("azimuth", azimuth, "a finite number of degrees"))
         made = render(self._prediction, (size[0], size[1]), turned, tracing, alpha, progress)
@@ -251,8 +252,8 @@ class Hairstyle:
     def derivatives(self, *, progress: Progress | None = None) -> HeadDerivatives:
         """The head as it rests, with exact derivatives of all guides together by curl, stiffness, density, gravity and contact.
 
-        The head is brought to rest to rounding first. Wisps that touch need `equilibrium.method = "continuation"`, and curls
-        `equilibrium.element = "helix"`; hair with friction has no derivatives. A `SceneError` or an `ArgumentError` says what is missing.
+        The head is brought to rest to rounding first. Wisps that touch need `equilibrium.method = "continuation"`; hair with friction
+        has no derivatives. A `SceneError` or an `ArgumentError` says what is missing.
         """
         return HeadDerivatives(self._prediction, progress)
 

@@ -18,6 +18,8 @@ import jax.numpy as jnp  # type: ignore[import-not-found, unused-ignore]
 import numpy as np
 
 from frisure import _autodiff, rods
+from frisure._check import unmasked
+from frisure.errors import ArgumentTypeError
 
 __all__ = ["settle"]
 
@@ -35,9 +37,10 @@ def _doubles(given: dict[str, Any]) -> dict[str, Any]:
 
 def _real(name: str, value: Any) -> jax.Array:
     """A real number or array as JAX has them; a complex one would lose its imaginary part."""
+    unmasked(name, value)
     kind = value.dtype if hasattr(value, "dtype") else np.asarray(value).dtype
     if not (jnp.issubdtype(kind, jnp.floating) or jnp.issubdtype(kind, jnp.integer)):
-        raise TypeError(f"{name} has the dtype {kind}; it must be real numbers in SI units")
+        raise ArgumentTypeError(f"{name} has the dtype {kind}; it must be real numbers in SI units")
     return jnp.asarray(value, dtype=float)
 
 

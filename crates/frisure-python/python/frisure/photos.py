@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from frisure._check import real, shown, text, unmasked, whole
 from frisure._frisure import measure_photo
 from frisure.errors import ArgumentError
 from frisure.fits import Progress
@@ -95,26 +97,21 @@ def measure(
     if hang not in ("down", "none"):
         raise ArgumentError(f"hang is {hang!r}; it can be 'down' or 'none'")
     if isinstance(photo, np.ndarray):
+        unmasked("photo", photo)
         if photo.dtype != np.uint8 or photo.ndim != 3 or photo.shape[2] not in (3, 4):
             raise ArgumentError(
                 f"photo has the shape {photo.shape} and the type {photo.dtype}; it must be (height, width, 3 or 4) of uint8"
             )
     elif not isinstance(photo, (str, os.PathLike)):
         raise ArgumentError(f"photo is a {type(photo).__name__}; it must be a path or an array of uint8")
-    given: dict[str, Any] = {
-        "length": length, "diameter": diameter, "axis_ratio": axis_ratio, "youngs_modulus": youngs_modulus,
-    }
-    for name, value in given.items():
+    scale = text("scale", scale, "a text such as '52 px/mm'")
+    given: dict[str, Any] = {"hair_type": text("hair_type", hair_type, "the name of a hair type")}
+    fibre = {"length": length, "diameter": diameter, "axis_ratio": axis_ratio, "youngs_modulus": youngs_modulus}
+    for name, value in fibre.items():
         low, high, unit = RANGES[name]
-        if value is not None and not (isinstance(value, (int, float, np.floating)) and low <= value <= high):
-            raise ArgumentError(f"{name} is {value!r}; it must be a number from {low:g} to {high:g} {unit}".rstrip())
-    part = None
-    if crop is not None:
-        if len(crop) != 4 or any(not isinstance(n, (int, np.integer)) or n < 0 for n in crop):
-            raise ArgumentError(f"crop is {crop!r}; it must be four whole numbers: left, top, width and height (pixels)")
-        left, top, width, height = (int(n) for n in crop)
-        part = (left, top, width, height)
-    told, overlay = measure_photo(photo, scale, part, hang == "down", {"hair_type": hair_type, **given}, progress)
+        allowed = f"a number from {low:g} to {high:g} {unit}".rstrip()
+        given[name] = None if value is None else real(name, value, allowed, low, high)
+    told, overlay = measure_photo(photo, scale, _part(crop), hang == "down", given, progress)
     found = json.loads(told)
     numbers: dict[str, float | None] = {}
     natural = found.get("natural") or (None, None)
@@ -135,3 +132,14 @@ def measure(
         overlay=np.asarray(overlay),
         **numbers,
     )
+
+
+def _part(crop: Any) -> tuple[int, int, int, int] | None:
+    if crop is None:
+        return None
+    try:
+        left, top, width, height = (whole("crop", number, 0, sys.maxsize) for number in crop)
+    except (TypeError, ValueError):
+        allowed = f"four whole numbers from 0 to {sys.maxsize}: left, top, width and height (pixels)"
+        raise ArgumentError(f"crop is {shown(crop)}; it must be {allowed}") from None
+    return left, top, width, height

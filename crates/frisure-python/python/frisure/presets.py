@@ -22,7 +22,7 @@ class Presets(Mapping[str, Scene]):
         return dict(preset_names())
 
     def __getitem__(self, name: str) -> Scene:
-        text = preset_text(name)
+        text = preset_text(name) if isinstance(name, str) else None
         if text is None:
             raise KeyError(f"{name!r} is no hair type; there are {', '.join(self.names)}")
         return Scene.from_text(text, file=f"<{name}>")

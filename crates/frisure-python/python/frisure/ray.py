@@ -14,10 +14,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import Any, Optional, Union
 
-from frisure._check import whole
+from frisure._check import path, whole
 from frisure._frisure import compute_part, missing_parts
 from frisure.errors import ArgumentError
 
@@ -58,7 +57,7 @@ def batch(
     except ImportError as error:
         raise ImportError('`frisure.ray` needs Ray Data: pip install "ray[data]"') from error
     cpus_per_task = whole("cpus_per_task", cpus_per_task, 1)
-    spec, folder = Path(spec).absolute(), Path(folder).absolute()
+    spec, folder = path("spec", spec).absolute(), path("folder", folder).absolute()
     parts, missing = missing_parts(spec, folder)
     if not missing:
         return Done(0, 0, 0)

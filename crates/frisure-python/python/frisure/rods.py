@@ -39,7 +39,7 @@ EXACT = 1e-10
 """Largest tolerance with derivatives: farther from rest they are slower to compute."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Gradient:
     """The derivatives of a loss by what H rods are made of, one row for each rod, also where an argument of `settle` was
     one for all: its derivative is then the sum of the rows. Units are those of the loss over those of the argument.
@@ -59,8 +59,8 @@ class Gradient:
       shape by which the loss meets the rod; the derivatives are as one over it. It is at least the smallest of all such quotients. That is
       1 without weight; weight that stretches a rod makes it greater than 1, and where stability is lost it is 0. It is 1 for a loss
       that asks nothing, and 0 where there are no derivatives.
-    - `regular` (H,) bool: whether the smallest quotient is at least 1e-3; nearer to a loss of stability derivatives are large and hold
-      for tiny changes only.
+    - `regular` (H,) bool: whether the smallest quotient is at least 1e-3 and all derivatives are finite; nearer to a loss of stability
+      derivatives are large and hold for tiny changes only.
     - `exists` (H,) bool: whether the shape is a minimum and has derivatives; where not, they are zero.
 
     Two gradients are equal if they are the same object: compare their arrays.
@@ -89,8 +89,12 @@ class Gradient:
     def __len__(self) -> int:
         return len(self.length)
 
+    def __repr__(self) -> str:
+        regular, exists = int(self.regular.sum()), int(self.exists.sum())
+        return f"<frisure.rods.Gradient: {exists} of {len(self)} rods with derivatives, {regular} regular>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion:
     """How H rods at rest, with P nodes each, move along a change of what they are made of, to first order.
 
@@ -105,6 +109,9 @@ class Motion:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def __repr__(self) -> str:
+        return f"<frisure.rods.Motion: {int(self.exists.sum())} of {len(self)} rods with derivatives, points {self.points.shape}>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +130,7 @@ class _Kept:
     """Whether they were given at knots, (H, K, 3)."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Settled:
     """H rods at rest, with P = elements + 1 nodes each.
 
@@ -147,6 +154,14 @@ class Settled:
 
     def __len__(self) -> int:
         return len(self.energy)
+
+    def __repr__(self) -> str:
+        told = f"{int(self.stable.sum())} of {len(self)} rods stable"
+        if self.points is not None:
+            told += f", points {self.points.shape}"
+        if "_kept" in self.__dict__:
+            told += ", with derivatives"
+        return f"<frisure.rods.Settled: {told}>"
 
     def __getstate__(self) -> dict[str, Any]:
         # What derivatives need stays in this process.
@@ -201,6 +216,10 @@ class Settled:
         elif kept.knots:
             strain = uniform[:, np.newaxis]
         tangent, d1 = _by_clamp(rotation, kept.tangent, kept.d1)
+        finite = np.ones(len(self), dtype=bool)
+        for array in (length, gravity, material, section, uniform, root, rotation, tangent, d1, by_radius, by_pitch):
+            if array is not None:
+                finite &= np.isfinite(array).reshape(len(self), int(array.size / max(len(self), 1))).all(axis=1)
         return Gradient(
             length=length,
             diameter=section[:, 0],
@@ -219,7 +238,7 @@ class Settled:
             half_strain=halves,
             gravity_vector=by_gravity,
             eigenvalue_bound=bound,
-            regular=flags[0],
+            regular=flags[0] & finite,
             exists=flags[1],
         )
 
@@ -317,16 +336,11 @@ def _strain_of_curl(
     by_radius: Float64 | None, by_pitch: Float64 | None, radius: Float64, pitch: Float64
 ) -> Float64:
     """The change of the strain of a helix, (H, 3), by changes of radius and pitch, (H,): the transpose of `_by_curl`."""
-    p = pitch / (2 * np.pi)
-    finite = np.isfinite(radius)
-    r = np.where(finite, radius, 1.0)
-    square = (r**2 + p**2) ** 2
-    away, twice = p**2 - r**2, 2 * r * p
+    away, twice = _curl_derivatives(radius, pitch)
     dr = 0.0 if by_radius is None else by_radius
     dp = 0.0 if by_pitch is None else by_pitch / (2 * np.pi)
-    curvature, torsion = (dr * away - dp * twice) / square, (-dr * twice - dp * away) / square
-    changes = np.stack([curvature, 0 * curvature, torsion], axis=1)
-    return np.asarray(np.where(finite[:, np.newaxis], changes, 0.0), dtype=np.float64)
+    curvature, torsion = dr * away - dp * twice, -dr * twice - dp * away
+    return np.asarray(np.stack([curvature, 0 * curvature, torsion], axis=1), dtype=np.float64)
 
 
 def _by_halves(kept: _Kept, change: Float64) -> Float64:
@@ -356,15 +370,20 @@ def _turned(tangent: Float64 | None, d1: Float64 | None, kept_tangent: Float64, 
 
 def _by_curl(by_strain: Float64, radius: Float64, pitch: Float64) -> tuple[Float64, Float64]:
     """The derivatives by radius and pitch of a helix, (H,), from those by its strain, (H, 3)."""
-    # kappa1 = R/(R² + p²) and tau = p/(R² + p²) with p = pitch/2π; infinitely far away nothing changes.
-    p = pitch / (2 * np.pi)
-    finite = np.isfinite(radius)
-    r = np.where(finite, radius, 1.0)
-    square = (r**2 + p**2) ** 2
-    away, twice = p**2 - r**2, 2 * r * p
-    by_radius = np.where(finite, (by_strain[:, 0] * away - by_strain[:, 2] * twice) / square, 0.0)
-    by_p = np.where(finite, (-by_strain[:, 0] * twice - by_strain[:, 2] * away) / square, 0.0)
+    away, twice = _curl_derivatives(radius, pitch)
+    by_radius = by_strain[:, 0] * away - by_strain[:, 2] * twice
+    by_p = -by_strain[:, 0] * twice - by_strain[:, 2] * away
     return by_radius, by_p / (2 * np.pi)
+
+
+def _curl_derivatives(radius: Float64, pitch: Float64) -> tuple[Float64, Float64]:
+    """The derivatives of the curvature R/(R² + p²) of a helix by R, and of p/(R² + p²) by R with the other sign; p is pitch/2π."""
+    p = pitch / (2 * np.pi)
+    # Infinitely far away nothing changes. Divided one by one: powers of a large radius are no numbers.
+    finite = np.isfinite(radius)
+    size = np.where(finite, np.hypot(radius, p), np.inf)
+    r, p = np.where(finite, radius, 0.0) / size, p / size
+    return (p**2 - r**2) / size / size, 2 * r * p / size / size
 
 
 def _knot_weights(halves: int, knots: int) -> Float64:
@@ -404,7 +423,7 @@ def _clamp(
     return size, t, along, width, e1, np.cross(t, e1)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Inverse:
     """The fibres that hang in H given shapes of P points.
 
@@ -428,6 +447,9 @@ class Inverse:
     def __len__(self) -> int:
         return len(self.length)
 
+    def __repr__(self) -> str:
+        return f"<frisure.rods.Inverse: {int(self.stable.sum())} of {len(self)} fibres stable, natural_strain {self.natural_strain.shape}>"
+
 
 def _numbers(name: str, value: ArrayLike) -> Float64:
     """(H,) or, for all rods, (1,)."""
@@ -439,19 +461,20 @@ def _numbers(name: str, value: ArrayLike) -> Float64:
 
 def _vectors(name: str, value: ArrayLike) -> Float64:
     """(H, 3) or, for all rods, (1, 3)."""
-    array = np.atleast_2d(_array(name, value))
+    given = _array(name, value)
+    array = np.atleast_2d(given)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ArgumentError(f"{name} has the shape {array.shape}; it must be (3,) or (H, 3)")
+        raise ArgumentError(f"{name} has the shape {given.shape}; it must be (3,) or (H, 3)")
     return array
 
 
 def _profiles(name: str, value: ArrayLike) -> Float64:
     """Strains at K knots, (H, K, 3); from (3,) or (H, 3) at one knot."""
-    array = _array(name, value)
+    given = array = _array(name, value)
     if array.ndim in (1, 2):
         array = np.atleast_2d(array)[:, np.newaxis, :]
     if array.ndim != 3 or array.shape[2] != 3 or array.shape[1] == 0:
-        raise ArgumentError(f"{name} has the shape {array.shape}; it must be (3,), (H, 3) or (H, K, 3)")
+        raise ArgumentError(f"{name} has the shape {given.shape}; it must be (3,), (H, 3) or (H, K, 3)")
     return array
 
 
@@ -652,11 +675,11 @@ def inverse(
     cannot stand in every shape: see `stable` and `stiffness_needed`. This solves one line after another, on all
     threads, in milliseconds each.
     """
-    lines = _array("points", points)
+    given = lines = _array("points", points)
     if lines.ndim == 2:
         lines = lines[np.newaxis]
     if lines.ndim != 3 or lines.shape[2] != 3 or lines.shape[1] < 2:
-        raise ArgumentError(f"points has the shape {lines.shape}; it must be (P, 3) or (H, P, 3), P at least 2")
+        raise ArgumentError(f"points has the shape {given.shape}; it must be (P, 3) or (H, P, 3), P at least 2")
     fibres = _fibres(diameter, axis_ratio, youngs_modulus, shear_modulus, density, gravity)
     for name, array in fibres.items():
         if len(array) not in (1, len(lines)):

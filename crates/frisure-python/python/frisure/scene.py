@@ -11,8 +11,11 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, Union
 
+from frisure._check import path as _path
+from frisure._check import shown
+from frisure._check import text as _text
 from frisure._frisure import SceneText, scene_keys
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 
 SceneSource = Union["Scene", Mapping[str, Any], "os.PathLike[str]", str]
 """What a scene is made from: another one, a dict, a path, or text in TOML (a str with a line break)."""
@@ -27,7 +30,8 @@ def _keys() -> dict[str, str]:
 def _parts(path: str) -> list[str | int]:
     """The steps of a path such as `region[0].length`."""
     if not isinstance(path, str):
-        raise TypeError(f"a key is a text, such as 'hair.length', and not {path!r}")
+        raise ArgumentTypeError(f"a key is a text, such as 'hair.length', and not {shown(path)}")
+    _text("a key", path)
     parts: list[str | int] = []
     for step in path.split("."):
         found = re.fullmatch(r"([^\[\]]+)((?:\[\d+\])*)", step)
@@ -36,6 +40,10 @@ def _parts(path: str) -> list[str | int]:
         parts.append(found[1])
         parts.extend(int(index) for index in re.findall(r"\d+", found[2]))
     return parts
+
+
+_NONE: Any = object()
+"""Stands for an argument that is not given."""
 
 
 class Section(MutableMapping[str, Any]):
@@ -119,6 +127,22 @@ class Section(MutableMapping[str, Any]):
     def __len__(self) -> int:
         return len(self._given())
 
+    def pop(self, name: str, default: Any = _NONE) -> Any:
+        """Removes a key, and returns what the scene said: of a table a dict."""
+        found = self._scene._find(self._key(name))
+        if found is None:
+            if default is _NONE:
+                raise KeyError(self._key(name))
+            return default
+        del self[name]
+        return _plain(found)
+
+    def popitem(self) -> tuple[str, Any]:
+        """Removes the first key of the table, and returns it with what the scene said."""
+        for name in self:
+            return name, self.pop(name)
+        raise KeyError("the scene gives no keys")
+
     def update(self, *changes: Any, **keys: Any) -> None:
         """Sets several keys at once, for values that mean something only together."""
         merged = dict(*changes, **keys)
@@ -158,18 +182,18 @@ class Scene(Section):
         self, source: SceneSource, /, *, folder: str | os.PathLike[str] | None = None
     ) -> None:
         Section.__init__(self, self, "")
-        within = Path(folder) if folder is not None else Path()
+        within = _path("folder", folder) if folder is not None else Path()
         if isinstance(source, Scene):
             core = source._core
         elif isinstance(source, Mapping):
             core = SceneText.from_mapping(source, within)
         elif isinstance(source, str) and "\n" in source:
-            core = SceneText.parse(source, "<text>", within, False)
+            core = SceneText.parse(_text("scene", source), "<text>", within, False)
         elif isinstance(source, (str, os.PathLike)):
             core = SceneText.read(Path(source))
         else:
             kind = type(source).__name__
-            raise TypeError(f"scene is of the type {kind}; it must be a Scene, a dict, a path or a text")
+            raise ArgumentTypeError(f"scene is of the type {kind}; it must be a Scene, a dict, a path or a text")
         self._set(core)
 
     @classmethod
@@ -181,7 +205,8 @@ class Scene(Section):
         folder: str | os.PathLike[str] | None = None,
     ) -> Scene:
         """The scene of a text in TOML; errors call it `file`."""
-        return cls._of(SceneText.parse(text, file, Path(folder) if folder is not None else Path(), False))
+        within = _path("folder", folder) if folder is not None else Path()
+        return cls._of(SceneText.parse(_text("text", text), _text("file", file), within, False))
 
     @classmethod
     def _of(cls, core: SceneText) -> Scene:
@@ -245,7 +270,7 @@ class Scene(Section):
 
     def number(self, key: str) -> float:
         """The number of a key such as `hair.length`, in SI units (m, rad, Pa, kg/m³), given by the scene or not."""
-        number = self._core.number(key)
+        number = self._core.number(_text("key", key, "a text, such as 'hair.length'"))
         if number is None:
             near = difflib.get_close_matches(key, _keys(), 1)
             raise KeyError(f"{key!r} is no key with a number" + (f"; near it is {near[0]!r}" if near else ""))
@@ -253,15 +278,16 @@ class Scene(Section):
 
     def with_step(self, operation: str, value: Any = None, /, **keys: Any) -> Scene:
         """The scene with one more step: `scene.with_step("cut", below="chin")`."""
+        _text("step", operation, "the name of an operation, such as 'cut'")
         if value is not None and keys:
-            raise TypeError("give the value of the step or its keys, not both")
+            raise ArgumentTypeError("give the value of the step or its keys, not both")
         # A trailing underscore lets a key be a word of Python.
         named = {key.removesuffix("_"): item for key, item in keys.items() if item is not None}
         return Scene._of(self._core.with_step(operation, named if value is None else value))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the text to a file, as a whole or not at all; `FailedError` where it cannot be written."""
-        self._core.save(Path(path))
+        self._core.save(_path("path", path))
 
     def copy(self) -> Scene:
         """Another scene that is the same; changes of one do not change the other."""

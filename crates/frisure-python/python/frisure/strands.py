@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator, Mapping
 from typing import Any, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from frisure._check import shown
 from frisure._frisure import Memory, StrandData
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 
 Float32 = NDArray[np.float32]
 UInt32 = NDArray[np.uint32]
@@ -18,6 +20,12 @@ UInt32 = NDArray[np.uint32]
 def _array(memory: Memory) -> NDArray[Any]:
     """The array at some memory, without a copy."""
     return np.asarray(memory)
+
+
+def _attribute(data: StrandData, name: str) -> NDArray[Any]:
+    memory = data.attribute(name)
+    assert memory is not None
+    return _array(memory)
 
 
 class Strands:
@@ -35,20 +43,14 @@ class Strands:
     """
 
     def __init__(self, data: StrandData) -> None:
-        self._data = data
         self.points: Float32 = _array(data.points())
         self.radii: Float32 = _array(data.radii())
         self.offsets: UInt32 = _array(data.offsets())
         self.attributes: Mapping[str, Union[Float32, UInt32]] = {
-            name: self._attribute(name) for name, _ in data.attributes()
+            name: _attribute(data, name) for name, _ in data.attributes()
         }
         self.per_point: frozenset[str] = frozenset(n for n, point in data.attributes() if point)
         """The names of the attributes with a value per point."""
-
-    def _attribute(self, name: str) -> NDArray[Any]:
-        memory = self._data.attribute(name)
-        assert memory is not None
-        return _array(memory)
 
     @property
     def counts(self) -> UInt32:
@@ -77,14 +79,37 @@ class Strands:
     def __getitem__(self, strand: int | slice) -> Float32 | list[Float32]:
         if isinstance(strand, slice):
             return [self[i] for i in range(*strand.indices(len(self)))]
-        index = strand + len(self) if strand < 0 else strand
+        try:
+            place = operator.index(strand)
+        except TypeError:
+            raise ArgumentTypeError(f"the index of a strand is {shown(strand)}; it must be a whole number or a slice") from None
+        index = place + len(self) if place < 0 else place
         if not 0 <= index < len(self):
-            raise IndexError(f"strand {strand} of {len(self)}")
+            raise IndexError(f"strand {place} of {len(self)}")
         return self.points[self.offsets[index] : self.offsets[index + 1]]
 
     def __iter__(self) -> Iterator[Float32]:
         return (self[i] for i in range(len(self)))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.points, self.radii, self.offsets, dict(self.attributes), self.per_point)
+
     def __repr__(self) -> str:
         names = ", ".join(self.attributes)
         return f"<frisure.Strands: {len(self)} strands, {len(self.points)} points; {names}>"
+
+
+def _restored(
+    points: Float32,
+    radii: Float32,
+    offsets: UInt32,
+    attributes: dict[str, Union[Float32, UInt32]],
+    per_point: frozenset[str],
+) -> Strands:
+    """Strands that were pickled or copied, which own their arrays."""
+    strands = Strands.__new__(Strands)
+    strands.points, strands.radii, strands.offsets = points, radii, offsets
+    strands.attributes, strands.per_point = attributes, per_point
+    for array in (points, radii, offsets, *attributes.values()):
+        array.flags.writeable = False
+    return strands

@@ -17,6 +17,7 @@ from typing import Any
 import torch  # type: ignore[import-not-found, unused-ignore]
 
 from frisure import _autodiff, rods
+from frisure.errors import ArgumentTypeError
 
 __all__ = ["settle"]
 
@@ -24,7 +25,7 @@ __all__ = ["settle"]
 def _numpy(name: str, tensor: torch.Tensor) -> Any:
     """A real tensor as an array; a complex one would lose its imaginary part."""
     if tensor.is_complex() or tensor.dtype == torch.bool:
-        raise TypeError(f"{name} has the dtype {tensor.dtype}; it must be real numbers in SI units")
+        raise ArgumentTypeError(f"{name} has the dtype {tensor.dtype}; it must be real numbers in SI units")
     given = tensor.detach().cpu()
     # NumPy has no bfloat16.
     return (given.double() if given.is_floating_point() else given).numpy()

@@ -19,13 +19,16 @@ pub(super) struct Pieces {
     half: f64,
     /// Natural strain of both halves of each element (rad/m).
     natural: Vec<[DVec3; 2]>,
+    /// Sample points of a whole element, and so of a piece.
+    samples: usize,
 }
 
 impl Pieces {
-    /// At a shape; `None` for helix elements.
+    /// At a shape, with so many sample points per element; `None` for helix elements.
     pub(super) fn new(
         problem: &Problem<'_>,
         shape: &Shape,
+        samples: u32,
     ) -> Result<Option<Self>, DerivativeError> {
         let Some(chain) = problem.chain().in_pieces() else { return Ok(None) };
         let external = problem.external.iter().map(|p| p.on_pieces());
@@ -45,9 +48,10 @@ impl Pieces {
             with_position: problem.with_position,
         };
         Ok(Some(Self {
-            variation: whole.second_variation(&pieces, 1),
+            variation: whole.second_variation(&pieces, samples),
             half,
             natural: (0..shape.controls.len()).map(natural).collect(),
+            samples: samples as usize,
         }))
     }
 
@@ -81,11 +85,42 @@ impl Pieces {
     /// For a change of the natural strain of both halves of each element: −∂g/∂u⁰ δu⁰ of each control (N m), and how the
     /// nodes between elements move with the controls as they are.
     pub(super) fn along(&self, change: &[[DVec3; 2]]) -> (Vec<DVec3>, NodeChanges) {
-        let step = change.iter().flat_map(|[a, b]| [*a * self.half, DVec3::ZERO, *b * self.half]);
-        let step: Vec<DVec3> = step.collect();
+        let step = self.step(change);
         let right = self.variation.apply(&step).chunks_exact(3).map(|piece| -piece[1]).collect();
         let moved = self.variation.node_changes(&step);
         (right, NodeChanges::new(moved.iter().step_by(3)))
+    }
+
+    /// How a change of the natural strain of both halves of each element moves the sample points of whole elements (m), with the controls as they
+    /// are.
+    pub(super) fn displacements(&self, change: &[[DVec3; 2]]) -> Vec<DVec3> {
+        let all = self.variation.displacements(&self.step(change));
+        (0..self.natural.len() * self.samples).map(|point| all[self.on_piece(point)]).collect()
+    }
+
+    /// The transpose of [`Self::displacements`]: the derivative by the natural strain of both halves of each element of an energy whose derivatives by
+    /// the sample points are `forces` (N).
+    pub(super) fn by_forces(&self, forces: &[DVec3]) -> Vec<[DVec3; 2]> {
+        assert_eq!(forces.len(), self.natural.len() * self.samples, "one force per sample point");
+        let mut all = vec![DVec3::ZERO; self.variation.sample_count()];
+        for (point, force) in forces.iter().enumerate() {
+            all[self.on_piece(point)] = *force;
+        }
+        self.halves(&self.variation.by_controls(&all))
+    }
+
+    /// Which sample point of the pieces is a sample point of the whole elements: the point k of n, from 1, is the point 2 k of the first half, or
+    /// 2 k − n of the second.
+    fn on_piece(&self, point: usize) -> usize {
+        let (element, k) = (point / self.samples, point % self.samples + 1);
+        let (piece, k) = if 2 * k <= self.samples { (0, 2 * k) } else { (2, 2 * k - self.samples) };
+        (3 * element + piece) * self.samples + k - 1
+    }
+
+    /// A change of natural strain as one of the controls of the pieces (rad).
+    fn step(&self, change: &[[DVec3; 2]]) -> Vec<DVec3> {
+        let pieces = change.iter().map(|[a, b]| [*a * self.half, DVec3::ZERO, *b * self.half]);
+        pieces.flatten().collect()
     }
 
     fn halves(&self, by_pieces: &[DVec3]) -> Vec<[DVec3; 2]> {

@@ -106,24 +106,24 @@ impl Sensitivity {
     /// potential has no form for their halves.
     pub fn new(problem: &Problem<'_>, shape: Shape) -> Result<Self, DerivativeError> {
         let (shape, variation, gradient_norm) = polished(problem, shape)?;
-        Self::from_variation(problem, shape, variation, gradient_norm)
+        Self::from_variation(problem, shape, variation, gradient_norm, 1)
     }
 
     /// The parts of the derivatives of one of several rods at rest together, which touch each other: of all of them the controls change by what the
-    /// coupled equations say, which the caller solves; see [`Self::moments_of`] and [`Self::moments_of_change`]. The shape is taken as it is;
-    /// [`Self::vjp`] and [`Self::jvp`] are those while the others hold still.
+    /// coupled equations say, which the caller solves; see [`Self::moments_of`] and [`Self::moments_of_change`]. The rods touch each other at `samples`
+    /// points per element, those of [`Chain::sample_points`]. The shape is taken as it is; [`Self::vjp`] and [`Self::jvp`] are those while the others
+    /// hold still.
     ///
     /// # Errors
-    /// [`DerivativeError::JointedElements`], if elements are jointed: a change of the strain of a half moves what is beyond it against the other rods
-    /// at once.
-    pub fn among_others(problem: &Problem<'_>, shape: Shape) -> Result<Self, DerivativeError> {
+    /// [`DerivativeError::JointedElements`], if the elements are jointed and a potential has no form for their halves.
+    pub fn among_others(
+        problem: &Problem<'_>,
+        shape: Shape,
+        samples: u32,
+    ) -> Result<Self, DerivativeError> {
         let variation = problem.second_variation(&shape, 1);
         let gradient_norm = relative(problem, &variation);
-        let sensitivity = Self::from_variation(problem, shape, variation, gradient_norm)?;
-        if sensitivity.pieces.is_some() {
-            return Err(DerivativeError::JointedElements);
-        }
-        Ok(sensitivity)
+        Self::from_variation(problem, shape, variation, gradient_norm, samples)
     }
 
     fn from_variation(
@@ -131,6 +131,7 @@ impl Sensitivity {
         shape: Shape,
         variation: SecondVariation,
         gradient_norm: f64,
+        samples: u32,
     ) -> Result<Self, DerivativeError> {
         let chain = problem.chain();
         let rod = chain.rod();
@@ -142,7 +143,7 @@ impl Sensitivity {
         let [(x, mx), (y, my), (z, mz)] = [DVec3::X, DVec3::Y, DVec3::Z].map(axis);
         let bent = |(i, c): (usize, &DVec3)| *c - chain.geometry(i).rest();
         let min_eigenvalue = problem.min_eigenvalue(&shape);
-        let pieces = Pieces::new(problem, &shape)?;
+        let pieces = Pieces::new(problem, &shape, samples)?;
         let spacing = rod.length() / chain.len() as f64;
         let natural = |i: usize| chain.geometry(i).rest() / spacing;
         Ok(Self {
@@ -211,32 +212,48 @@ impl Sensitivity {
     ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
         // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x.
         let a = self.adjoint(by_nodes)?;
-        self.vjp_by_adjoint_with_halves(by_nodes, &a)
+        self.vjp_by_adjoint_with_halves(by_nodes, &a, &[])
     }
 
     /// [`Self::vjp`] with the solution a (rad per unit of the loss) of the adjoint's equation, one vector for each element: for a rod among others that
-    /// of the coupled equations of all, whose right sides are [`Self::moments_of`]. docs/theory.md (D2), (D7)
+    /// of the coupled equations of all, whose right sides are [`Self::moments_of`]. `forces` (N per unit of the loss) is ∂²E/∂x∂x′ δx′ at each sample
+    /// point x, with δx′ how the adjoints of all rods move the sample points of all, without what the rod has while the others hold still; empty for
+    /// none. Helix elements do not need it. docs/theory.md (D2), (D7), (D8)
     ///
     /// # Errors
     /// [`DerivativeError::Nodes`] and [`DerivativeError::Elements`], if there is not one vector for each.
+    ///
+    /// # Panics
+    /// If elements are jointed and there are forces, but not one for each sample point.
     pub fn vjp_by_adjoint(
         &self,
         by_nodes: &ShapeChange,
         adjoint: &[DVec3],
+        forces: &[DVec3],
     ) -> Result<ParameterGradient, DerivativeError> {
-        self.vjp_by_adjoint_with_halves(by_nodes, adjoint).map(|(gradient, _)| gradient)
+        self.vjp_by_adjoint_with_halves(by_nodes, adjoint, forces).map(|(gradient, _)| gradient)
     }
 
     fn vjp_by_adjoint_with_halves(
         &self,
         by_nodes: &ShapeChange,
         a: &[DVec3],
+        forces: &[DVec3],
     ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
         self.one_per_element(a)?;
         // 2. −aᵀ ∂g/∂p of each parameter. (D3), (D4)
         let ShapeChange { positions, rotations } = by_nodes;
         let by_nodes = self.in_frames(by_nodes)?;
-        let halves = self.pieces.as_ref().map(|pieces| pieces.by_strain(&by_nodes, a));
+        let halves = self.pieces.as_ref().map(|pieces| {
+            let mut halves = pieces.by_strain(&by_nodes, a);
+            if !forces.is_empty() {
+                // Halves move what is beyond them against the other rods, too. (D8)
+                for (sum, by_forces) in halves.iter_mut().zip(pieces.by_forces(forces)) {
+                    sum.iter_mut().zip(by_forces).for_each(|(sum, by)| *sum -= by);
+                }
+            }
+            halves
+        });
         let natural_strain: Vec<DVec3> = match &halves {
             None => a.iter().map(|a| self.stiffness * *a).collect(),
             Some(halves) => halves.iter().map(|[a, b]| *a + *b).collect(),
@@ -388,6 +405,24 @@ impl Sensitivity {
         self.one_per_element(controls)?;
         let (_, by_halves) = self.change_with_halves(change, &[])?;
         Ok(self.moved(change, controls, by_halves))
+    }
+
+    /// How a change of natural strain moves the sample points of a rod among others by itself (m), with all controls and the root as they are; `None`
+    /// for helix elements, whose shape is that of their controls alone. docs/theory.md (D8)
+    ///
+    /// # Errors
+    /// [`DerivativeError::Elements`], if the change has natural strains, but not one for each element.
+    pub fn displacements_of_change(
+        &self,
+        change: &ParameterChange,
+    ) -> Result<Option<Vec<DVec3>>, DerivativeError> {
+        let Some(pieces) = &self.pieces else { return Ok(None) };
+        if change.natural_strain.is_empty() {
+            return Ok(None);
+        }
+        self.one_per_element(&change.natural_strain)?;
+        let both: Vec<[DVec3; 2]> = change.natural_strain.iter().map(|u| [*u; 2]).collect();
+        Ok(Some(pieces.displacements(&both)))
     }
 
     /// −∂g/∂p δp, and how a change of the strain of halves moves what is beyond them by itself.

@@ -1,8 +1,9 @@
 //! The equilibrium of a rod: a minimum of its energy, with a certificate.
 //!
-//! The files in the order of the computation: `options`, `search` (gravity's branch, refinement), `warm_start` (from the
+//! The files in the order of the computation: `options`, `search` (gravity's branch, refinement), `fork` (the side to which the branch goes on), `warm_start` (from the
 //! shape of another rod), `richardson` (extrapolation and the estimate of the error), `solution`.
 
+mod fork;
 mod free_turn;
 mod options;
 mod richardson;

@@ -18,7 +18,11 @@ pub(super) struct LeastEigenvalue {
 /// Largest spread over the eigenvalue at which shapes of divisions may be extrapolated. Near a loss of stability a shape goes as
 /// 1/λ, and 1/(λ + e h²) has a series in h² that is of use for e h² well below λ alone: with a quarter the next term is a
 /// hundredth. Chosen.
-pub(super) const RESOLVED: f64 = 0.25;
+const RESOLVED: f64 = 0.25;
+
+/// The same of the lean of a rod that turns freely. It goes as √(1 − x), x = e h²/ε at ε beyond the loss of stability, and differs by 3x/8
+/// between two divisions: then the division before them, with 4x, has a series in h² too, and two extrapolations do not agree by chance.
+pub(super) const LEAN_RESOLVED: f64 = 0.06;
 
 impl LeastEigenvalue {
     /// Extrapolates the eigenvalues of two divisions, or of three.

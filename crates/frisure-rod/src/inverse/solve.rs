@@ -219,8 +219,14 @@ impl FittedCurve {
         let least = problem.min_eigenvalue(&self.target);
         let stability = if least > 0.0 { Stability::Stable } else { Stability::Saddle };
         let clear = least > CLEAR_EIGENVALUE;
-        let minimum =
-            Minimum { shape: self.target.clone(), gradient_norm, iterations: 0, stability, clear };
+        let minimum = Minimum {
+            shape: self.target.clone(),
+            gradient_norm,
+            iterations: 0,
+            stability,
+            clear,
+            crossed: false,
+        };
         let start = Equilibrium::from_minimum(&problem, minimum);
         let equilibrium = equilibrium_from(&rod, external, options, &start);
         let error = largest_distance(&self.line, &equilibrium);

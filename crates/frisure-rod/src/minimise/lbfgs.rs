@@ -99,7 +99,7 @@ impl Minimiser for Lbfgs {
             Stability::Saddle
         };
         let clear = least > CLEAR_EIGENVALUE;
-        Minimum { shape, gradient_norm, iterations, stability, clear }
+        Minimum { shape, gradient_norm, iterations, stability, clear, crossed: false }
     }
 }
 

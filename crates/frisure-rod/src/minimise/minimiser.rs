@@ -41,6 +41,9 @@ pub struct Minimum {
     /// Whether the pivots show that the smallest eigenvalue ([`Problem::min_eigenvalue`]) is above [`CLEAR_EIGENVALUE`],
     /// so far from zero that a finer division has the same stability.
     pub clear: bool,
+    /// Whether the second variation was not positive at the start, or at a saddle on the way down: the start may be on a ridge between two
+    /// minima. `false` from a minimiser that does not look.
+    pub crossed: bool,
 }
 
 /// An eigenvalue above which stability is beyond doubt, on the scale of [`Problem::min_eigenvalue`]. On 400 random hairs

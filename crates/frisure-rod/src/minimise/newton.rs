@@ -158,24 +158,27 @@ impl Newton {
         let mut escapes = 0;
         let mut stalled = 0;
         let mut last_gradient = f64::INFINITY;
+        let mut crossed = false;
         loop {
             let at = Linearisation::<POSITION>::new(problem, &shape);
             let gradient_norm = at.largest_gradient() / scale;
-            let end = |shape, iterations, stability| Minimum {
+            let end = |shape, iterations, stability, crossed| Minimum {
                 shape,
                 gradient_norm,
                 iterations,
                 stability,
                 clear: false,
+                crossed,
             };
             let mut at_rest = gradient_norm <= stopping.tolerance;
             // 1. Not stationary: one Newton step.
             if !at_rest {
                 if iterations >= stopping.max_iterations {
-                    return end(shape, iterations, Stability::NotConverged);
+                    return end(shape, iterations, Stability::NotConverged, crossed);
                 }
                 iterations += 1;
                 let step = self.step(&at, &shape, energy, &mut damping);
+                crossed |= iterations == 1 && step.as_ref().is_none_or(|s| s.indefinite);
                 // A step whose decrease drowns in rounding is checked by the gradient: quadratic convergence at least halves it.
                 let rounded = step.as_ref().is_none_or(|s| s.below_rounding);
                 stalled =
@@ -188,7 +191,7 @@ impl Newton {
                     // The gradient is as small as rounding allows.
                     _ if gradient_norm <= ROUNDED_GRADIENT => at_rest = true,
                     Some(step) => (shape, energy) = (step.shape, step.energy),
-                    None => return end(shape, iterations, Stability::NotConverged),
+                    None => return end(shape, iterations, Stability::NotConverged, crossed),
                 }
             }
             // 2. Stationary: a minimum, or a saddle point to leave.
@@ -196,21 +199,22 @@ impl Newton {
                 // A vanishing gradient alone is not a minimum: the pivots decide. docs/theory.md, "Saddles", "Certificates"
                 // Most rods are far from a loss of stability: then one sweep shows both.
                 if at.sweep(-CLEAR_EIGENVALUE).is_ok() {
-                    let minimum = end(shape, iterations, Stability::Stable);
+                    let minimum = end(shape, iterations, Stability::Stable, crossed);
                     return Minimum { clear: true, ..minimum };
                 }
                 // On the way to a finer division the gradient is far from rounding.
                 let last = stopping.tolerance <= ROUNDED_GRADIENT;
                 let rounded = if last { gradient_norm } else { f64::INFINITY };
                 let Some(failed) = at.negative_pivot(rounded) else {
-                    return end(shape, iterations, Stability::Stable);
+                    return end(shape, iterations, Stability::Stable, crossed);
                 };
+                crossed = true;
                 escapes += 1;
                 let escaped = (self.escape_saddles && escapes <= MOST_ESCAPES)
                     .then(|| escape_saddle(problem, &shape, energy, &failed));
                 match escaped.flatten() {
                     Some(escaped) => (shape, energy) = escaped,
-                    None => return end(shape, iterations, Stability::Saddle),
+                    None => return end(shape, iterations, Stability::Saddle, crossed),
                 }
                 iterations += 1;
                 (stalled, last_gradient) = (0, f64::INFINITY);
@@ -236,9 +240,11 @@ impl Newton {
             }
             d => self.stronger(d),
         };
+        let mut indefinite = false;
         while *damping < LARGEST_DAMPING {
             // 1. Damping: until every pivot is positive definite.
             let Ok(sweep) = at.sweep(*damping) else {
+                indefinite = true;
                 *damping = stronger(*damping);
                 continue;
             };
@@ -270,7 +276,7 @@ impl Newton {
                         _ => (2.0 * *damping).max(DAMPING_AFTER_SHORT_STEP),
                     };
                     let below_rounding = expected < noise;
-                    return Some(Step { shape: next, energy: lowered, below_rounding });
+                    return Some(Step { shape: next, energy: lowered, below_rounding, indefinite });
                 }
                 fraction *= 0.5;
             }
@@ -299,7 +305,7 @@ fn step_by_gradient<const POSITION: bool>(
     let step = |fraction: f64| {
         let (next, lowered) = rollout::<POSITION>(at.problem, shape, &sweep.laws, fraction);
         let gradient = Linearisation::<POSITION>::new(at.problem, &next).largest_gradient();
-        (gradient, Step { shape: next, energy: lowered, below_rounding: true })
+        (gradient, Step { shape: next, energy: lowered, below_rounding: true, indefinite: false })
     };
     let (gradient, step) = (0..GRADIENT_TRIALS)
         .map(|halvings| step(0.5_f64.powi(halvings)))
@@ -314,6 +320,8 @@ struct Step {
     energy: f64,
     /// Whether the expected decrease of the energy is below its rounding error.
     below_rounding: bool,
+    /// Whether the second variation is not positive where the step begins, with the damping tried first.
+    indefinite: bool,
 }
 
 /// First turn (rad) along negative curvature, and how often it is halved. Chosen by trial.

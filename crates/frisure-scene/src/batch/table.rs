@@ -147,8 +147,8 @@ impl<'a> Table<'a> {
             ValueType::Quantity(dimension) => {
                 let value = understood(text);
                 let value = value.ok_or_else(|| self.refuse_at(key, span.clone(), "a number"))?;
-                let path = || self.source.path_at(&span);
-                read_quantity(&value, dimension).map_err(|e| e.at_path(&path(), self.source))
+                read_quantity(&value, dimension)
+                    .map_err(|e| e.at(self.source.path_at(&span), self.source, span))
             }
             ValueType::Whole => match Written::literal(text, None).value {
                 Value::Whole(x) => Ok(x as f64),

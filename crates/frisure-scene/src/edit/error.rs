@@ -36,6 +36,14 @@ pub enum EditError {
         /// The path.
         key: String,
     },
+    /// A key that the reader would not follow.
+    #[error("`{key}` has more than {most} names; a key of a scene has fewer")]
+    Deep {
+        /// The beginning of the path.
+        key: String,
+        /// Most names of a path.
+        most: usize,
+    },
     /// The edited text does not have the intended values.
     #[error("the steps of this scene are too mixed with the rest to be edited one by one")]
     Scattered,

@@ -13,6 +13,7 @@ use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike,
 
 use super::dependent::{dependents, supplement};
 use super::error::EditError;
+use crate::error::quoted;
 use crate::scene::Scene;
 use crate::source::Source;
 
@@ -20,6 +21,9 @@ type Result<T, E = EditError> = std::result::Result<T, E>;
 
 /// What errors call the text.
 const NAME: &str = "scene";
+
+/// Most names and indices of a path. Chosen below the 80 that the parser of TOML reads.
+const DEEPEST: usize = 64;
 
 /// The text with a key (`hair.curl.radius`, `region[1].length`) set to a value, written as in a scene
 /// (`"9 mm"` with its quotes, `0.5`, `[1, 2]`). Tables that are missing are made; the number after the
@@ -46,6 +50,11 @@ pub fn unset_key(text: &str, key: &str) -> Result<String> {
 /// # Errors
 /// As [`set_key`].
 pub fn set_keys(text: &str, changes: &[(&str, Option<&str>)]) -> Result<String> {
+    if let Some((key, _)) =
+        changes.iter().find(|(key, _)| key.matches(['.', '[']).count() >= DEEPEST)
+    {
+        return Err(EditError::Deep { key: quoted(key), most: DEEPEST });
+    }
     let before = Source::new(NAME, text);
     let mark = &text[..text.len() - before.text.len()];
     before.document()?;

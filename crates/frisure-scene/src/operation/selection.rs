@@ -21,6 +21,15 @@ pub(crate) const WHERE: &str = "where";
 /// How deep a choice may be made of others; TOML itself ends at 80 lists and tables.
 const DEEPEST: usize = 32;
 
+/// Most words and tables of a choice, all together. Chosen: a person writes ten, and each looks at all wisps.
+const MOST_PARTS: usize = 1000;
+
+/// Most wisps of a list. Chosen: more than a head has.
+const MOST_WISPS: usize = 100_000;
+
+/// Most places of a brush and corners of a lasso. Chosen: a hand that draws for minutes makes fewer.
+const MOST_POINTS: usize = 10_000;
+
 /// What a table can say, one of these.
 const KEYS: [&str; 8] = ["above", "wisps", "plane", "brush", "lasso", "any", "all", "not"];
 
@@ -50,6 +59,14 @@ impl Kind for Where {
     type Value = Selection;
 
     fn read(value: &Value) -> Result<Selection, ValueError> {
+        // Before any is read: each takes time here, and more on a head.
+        let parts = parts(value);
+        if parts > MOST_PARTS {
+            let problem =
+                format!("{parts} choices of wisps in all; there are at most {MOST_PARTS}");
+            let hint = "{ wisps = [0, 12] } has up to 100000 wisps by number";
+            return Err(ValueError::because(problem).hint(hint));
+        }
         selection(value, 0)
     }
 
@@ -107,6 +124,18 @@ fn selection(value: &Value, depth: usize) -> Result<Selection, ValueError> {
     }
 }
 
+/// How many words and tables a choice consists of.
+fn parts(value: &Value) -> usize {
+    match value {
+        Value::Array(list) => list.iter().map(parts).sum(),
+        Value::Table(table) => {
+            let joined = ["any", "all", "not"].into_iter().filter_map(|key| table.get(key));
+            1 + joined.map(parts).sum::<usize>()
+        }
+        _ => 1,
+    }
+}
+
 /// A keyword outside of a list.
 fn word(value: &Value) -> Result<Selection, ValueError> {
     let both = |[one, other]: [&str; 2]| format!("{{ all = [\"{one}\", \"{other}\"] }}");
@@ -135,6 +164,15 @@ fn union_of_words(words: &[Value]) -> Result<Selection, ValueError> {
         )
     };
     each(words, |value| one_word(value, both)).map(Selection::Any)
+}
+
+/// A list, if it has not more than `most` of something.
+fn at_most<'a>(list: &'a [Value], most: usize, what: &str) -> Result<&'a [Value], ValueError> {
+    if list.len() <= most {
+        return Ok(list);
+    }
+    let problem = format!("{} {what}; there are at most {most}", list.len());
+    Err(ValueError::because(problem).hint("leave out what does not matter, or make it two steps"))
 }
 
 /// Reads every value of a list.
@@ -201,7 +239,8 @@ fn of_key(key: &str, value: &Value, depth: usize) -> Result<Selection, ValueErro
 
 fn wisps(value: &Value) -> Result<Vec<usize>, ValueError> {
     let allowed = "a list of numbers of wisps, such as [0, 12]";
-    each(value.as_array().ok_or_else(|| ValueError::new(allowed))?, Count::read)
+    let list = value.as_array().ok_or_else(|| ValueError::new(allowed))?;
+    each(at_most(list, MOST_WISPS, "wisps")?, Count::read)
 }
 
 fn lasso(value: &Value) -> Result<Lasso, ValueError> {
@@ -225,13 +264,17 @@ impl Kind for Spots {
         if list.first().is_some_and(|first| !first.is_array()) {
             return spot(value).map(|spot| vec![spot]);
         }
-        each(list, spot)
+        each(at_most(list, MOST_POINTS, "places")?, spot)
     }
 
     fn schema() -> Schema {
         let spot = json_schema!({ "anyOf": [Pair::schema(), Point::schema()] });
         json_schema!({
-            "anyOf": [{ "type": "array", "items": spot }, Pair::schema(), Point::schema()],
+            "anyOf": [
+                { "type": "array", "items": spot, "maxItems": MOST_POINTS },
+                Pair::schema(),
+                Point::schema(),
+            ],
             "examples": [[["2 cm", "5 cm"], [0, "-4 cm", "9 cm"]]],
         })
     }
@@ -283,9 +326,11 @@ impl Kind for Polygon {
     fn read(value: &Value) -> Result<Vec<[f64; 2]>, ValueError> {
         let allowed = "a list of corners [[u, v], …], from -1 to 1 across the picture and up";
         let list = value.as_array().ok_or_else(|| ValueError::new(allowed))?;
-        each(list, |corner| match corner.as_array().map(Vec::as_slice) {
-            Some([u, v]) => Ok([Ratio::read(u)?, Ratio::read(v)?]),
-            _ => Err(ValueError::new("a corner of two numbers, such as [0.5, -0.5]")),
+        each(at_most(list, MOST_POINTS, "corners")?, |corner| {
+            match corner.as_array().map(Vec::as_slice) {
+                Some([u, v]) => Ok([Ratio::read(u)?, Ratio::read(v)?]),
+                _ => Err(ValueError::new("a corner of two numbers, such as [0.5, -0.5]")),
+            }
         })
     }
 
@@ -293,7 +338,9 @@ impl Kind for Polygon {
         let corner = json_schema!({
             "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
         });
-        json_schema!({ "type": "array", "items": corner, "minItems": 3 })
+        json_schema!({
+            "type": "array", "items": corner, "minItems": 3, "maxItems": MOST_POINTS,
+        })
     }
 }
 
@@ -323,9 +370,11 @@ fn lasso_schema() -> Schema {
 /// The JSON Schema of `where`.
 pub(crate) fn where_schema() -> Schema {
     let one = Where::schema();
-    let list = json_schema!({ "type": "array", "items": one });
+    let list = json_schema!({ "type": "array", "items": one, "maxItems": MOST_PARTS });
     let word = OneOf::<Word>::schema();
-    let wisps = json_schema!({ "type": "array", "items": Count::schema() });
+    let wisps = json_schema!({
+        "type": "array", "items": Count::schema(), "maxItems": MOST_WISPS,
+    });
     let of = described;
     let tables = json_schema!({
         "type": "object", "additionalProperties": false, "minProperties": 1, "maxProperties": 1,
@@ -346,7 +395,11 @@ pub(crate) fn where_schema() -> Schema {
     });
     json_schema!({
         "description": "Which wisps: a part of the scalp as in `[[region]]`, or \"everything\"; a list \
-                        of parts; or a table with one key. Without it: everything.",
-        "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }, tables],
+                        of parts; or a table with one key; at most 1000 words and tables in all. Without it: everything.",
+        "anyOf": [
+            word,
+            { "type": "array", "items": word, "minItems": 1, "maxItems": MOST_PARTS },
+            tables,
+        ],
     })
 }

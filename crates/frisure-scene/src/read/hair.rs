@@ -132,12 +132,17 @@ fn strain(document: &Document<'_>, table: &str) -> Result<DVec3> {
     Ok(DVec3::new(number("kappa1")?, number("kappa2")?, number("tau")?))
 }
 
+/// Most knots of the strain along a hair. Chosen: as many as a hair has elements at most.
+const MAX_KNOTS: usize = 10_000;
+
 /// The natural strains along a hair, if they are given.
 pub(super) fn along(document: &Document<'_>) -> Result<Option<StrainProfile>> {
     let mut knots: Vec<(f64, DVec3)> = Vec::new();
     if document.value("hair.curl.along").is_some() && document.count_items("hair.curl.along") == 0 {
         return Err(document.outside("hair.curl.along", "a list of at least one table"));
     }
+    let hint = "strains are linear between knots: leave out those that lie between others";
+    document.check_items("hair.curl.along", MAX_KNOTS, "knots", hint)?;
     for i in 0..document.count_items("hair.curl.along") {
         let knot = format!("hair.curl.along[{i}]");
         let path = format!("{knot}.s");

@@ -52,7 +52,11 @@ pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource>
 fn frame(document: &Document<'_>, table: &str) -> Result<FrameChoice> {
     let unit = document.get::<OneOf<UnitWord>>(&format!("{table}.unit"))?;
     let up = document.get::<OneOf<Keyword<_>>>(&format!("{table}.up"))?;
-    Ok(FrameChoice { metres: unit.map(|unit| unit.0), up: up.map(|Keyword(up)| up) })
+    Ok(FrameChoice {
+        metres: unit.map(|unit| unit.0),
+        up: up.map(|Keyword(up)| up),
+        ..FrameChoice::default()
+    })
 }
 
 /// The groom, if there is one; its path is relative to `folder`.

@@ -49,6 +49,10 @@ fn flow(document: &Document<'_>, preset: Flow) -> Result<Flow> {
     })
 }
 
+/// Most partings: the root of each hair looks at all of them, and so does every point of the map of the flow. Chosen:
+/// rows of braids all over a head have twenty.
+const MAX_PARTINGS: usize = 32;
+
 /// The partings that are not a straight line at the place of the flow.
 fn partings(document: &Document<'_>) -> Result<Vec<Parting>> {
     let zigzag = document.get::<PartingPlace>("implantation.parting")?;
@@ -56,6 +60,8 @@ fn partings(document: &Document<'_>) -> Result<Vec<Parting>> {
         return Ok(vec![zigzag]);
     }
     let count = document.count_items("implantation.partings");
+    let hint = "one parting goes through up to 100 points of a `line`";
+    document.check_items("implantation.partings", MAX_PARTINGS, "partings", hint)?;
     (0..count).map(|i| parting(document, &format!("implantation.partings[{i}]"))).collect()
 }
 
@@ -71,18 +77,15 @@ fn parting(document: &Document<'_>, table: &str) -> Result<Parting> {
     Ok(parting)
 }
 
-/// The regions with styles of their own.
 /// Most regions: the root of each hair looks at all of them. A guard on time.
 const MAX_REGIONS: usize = 1000;
 
+/// The regions with styles of their own.
 pub(super) fn regions(document: &Document<'_>) -> Result<Vec<RegionStyle>> {
     let count = document.count_items("region");
-    if count > MAX_REGIONS {
-        let problem = format!("{count} regions; there are at most {MAX_REGIONS}");
-        let hint =
-            "one region can have several parts of the scalp, as in `where = [\"top\", \"nape\"]`";
-        return Err(document.error(&format!("region[{MAX_REGIONS}]"), problem, hint));
-    }
+    let hint =
+        "one region can have several parts of the scalp, as in `where = [\"top\", \"nape\"]`";
+    document.check_items("region", MAX_REGIONS, "regions", hint)?;
     (0..count).map(|i| region(document, &format!("region[{i}]"))).collect()
 }
 

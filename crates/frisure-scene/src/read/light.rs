@@ -15,6 +15,9 @@ use crate::kind::{Colour, FaceSize, Flag, Point, Text};
 /// Direction of the studio's main lamp (rad), for a scene that gives one of the two angles.
 const STUDIO: (f64, f64) = (-0.68, 0.72);
 
+/// Most lamps. Chosen: ten times those of a studio.
+const MAX_LAMPS: usize = 100;
+
 /// Farthest place of a lamp (m).
 const FAR: f64 = 1e3;
 
@@ -45,6 +48,8 @@ pub(super) fn light(
     let is_aimed = azimuth.is_some() || elevation.is_some();
     let direction = (azimuth.unwrap_or(STUDIO.0), elevation.unwrap_or(STUDIO.1));
     let lamps = 0..document.count_items("light.lamp");
+    let hint = "`size` makes one lamp as wide as many";
+    document.check_items("light.lamp", MAX_LAMPS, "lamps", hint)?;
     let light = LightSpec {
         setup: match setup {
             Setup::Daylight(sun) => Setup::Daylight(daylight(document, sun)),

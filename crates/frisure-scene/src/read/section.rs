@@ -15,12 +15,9 @@ const MAX_NAME: usize = 60;
 /// The sections, in their order.
 pub(super) fn sections(document: &Document<'_>) -> Result<Vec<Section>> {
     let count = document.count_items("section");
-    if count > MAX_SECTIONS {
-        let problem = format!("{count} sections; there are at most {MAX_SECTIONS}");
-        let hint =
-            "one section can have several parts of the scalp, as in `where = [\"top\", \"nape\"]`";
-        return Err(document.error(&format!("section[{MAX_SECTIONS}]"), problem, hint));
-    }
+    let hint =
+        "one section can have several parts of the scalp, as in `where = [\"top\", \"nape\"]`";
+    document.check_items("section", MAX_SECTIONS, "sections", hint)?;
     let mut sections: Vec<Section> = Vec::with_capacity(count);
     for i in 0..count {
         let section = section(document, &format!("section[{i}]"))?;

@@ -62,7 +62,7 @@ pub(crate) fn run_scene(
     drop(prediction);
     let Written { report, note, lines } = written?;
     if !quiet {
-        console::print(&summary(&report, &spec, note.as_deref(), &lines))?;
+        console::say(&summary(&report, &spec, note.as_deref(), &lines))?;
     }
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.
     let missed = requested && report.guides.accuracy_missed > 0;
@@ -70,7 +70,7 @@ pub(crate) fn run_scene(
     let contact = report.simulated.as_ref().and_then(|simulated| simulated.contact.as_ref());
     let unbalanced = contact.map_or(0, |contact| contact.hairs - contact.balanced);
     Ok(match report.guides.not_converged + report.guides.saddles + unbalanced {
-        0 if missed => ExitStatus::AccuracyMissed,
+        0 if missed || report.guides.undecided > 0 => ExitStatus::Uncertain,
         0 => ExitStatus::Success,
         _ => ExitStatus::NotConverged,
     })
@@ -173,7 +173,7 @@ impl Prediction<'_> {
             interrupt::check()?;
             let write = || report::write(path, &report);
             interrupt::writing(write).map_err(|e| Error::failed(&e, ""))?;
-            lines.push(path.display().to_string());
+            lines.push(console::shown(path));
         }
         Ok(Written { report, note: stages[0].note.clone(), lines })
     }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use frisure::hairstyle::{Body, HairstyleSpec};
 use frisure::rod::Resolution;
+use frisure::scene::quoted;
 use frisure_engine::ReplicaReport;
 use frisure_engine::report::{
     DEEP, HairstyleReport, SimulationReport, StepReport, StrandContactReport, WetLockReport,
@@ -17,7 +18,7 @@ pub(super) fn summary(
     written: &[String],
 ) -> String {
     let guides = &report.guides;
-    let name = if report.scene.is_empty() { report.hair_type } else { &report.scene };
+    let name = quoted(if report.scene.is_empty() { report.hair_type } else { &report.scene });
     let mut out = String::new();
     // Writing to a String cannot fail.
     if let Some(note) = note {
@@ -169,8 +170,14 @@ fn buried(report: &HairstyleReport, spec: &HairstyleSpec) -> String {
     if depth <= DEEP {
         return String::new();
     }
-    format!("warning: hair is {:.1} mm inside the head; {}\n", depth * 1e3, way_out(spec))
+    let is_within = report.groom.as_ref().is_some_and(|groom| groom.inside > 0);
+    let way_out = if is_within { GROOM_WITHIN } else { way_out(spec) };
+    format!("warning: hair is {:.1} mm inside the head; {way_out}\n", depth * 1e3)
 }
+
+/// What keeps hair of a groom out of the head that is inside it in the groom.
+const GROOM_WITHIN: &str = "the groom itself goes into it: check that it was made on this head, and that it is the right way round; `turn` and \
+                            `move` of `[groom]` place it";
 
 /// What keeps hair of a description out of the head.
 fn way_out(spec: &HairstyleSpec) -> &'static str {

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 use super::kernel::Kernel;
 use crate::contact::thickness::Thickness;
 use crate::math::{Grid, outer};
+use crate::parallel;
 
 /// Reach of the kernel of two wisps, in the mean of their radii. Chosen: wide enough that some 16 wisps share it where hair is as
 /// dense as it packs, so that the answer is smooth, and about as wide as hair is thick on a head.
@@ -215,7 +215,7 @@ impl Density {
             let rows = grid.rows(p, rings).flat_map(|row| &sorted[row]);
             rows.filter(close).map(|other| other.index).collect()
         };
-        let found: Vec<Vec<u32>> = (0..points.len()).into_par_iter().map(near).collect();
+        let found: Vec<Vec<u32>> = parallel::map(points.len(), near);
         let mut starts = Vec::with_capacity(found.len() + 1);
         starts.push(0);
         let mut total = 0;
@@ -241,7 +241,7 @@ impl Density {
             let dense: f64 = points.own[k] + near.of(k).iter().map(of).sum::<f64>();
             (dense - points.onset[k]).max(0.0)
         };
-        self.excess = (0..points.len()).into_par_iter().map(excess).collect();
+        self.excess = parallel::map(points.len(), excess);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The second derivative of the energy of density, as an operator.
 
+use crate::parallel;
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 use super::hair::{Density, Pair};
 
@@ -22,14 +22,11 @@ impl Density {
     /// The second derivative where hair is now.
     pub(crate) fn variation(&self) -> DensityVariation {
         let count = self.points.len();
-        let pairs: Vec<Vec<Pair>> = (0..count)
-            .into_par_iter()
-            .map(|k| {
-                let mut pairs = Vec::new();
-                self.for_each_pair(k, |pair| pairs.push(*pair));
-                pairs
-            })
-            .collect();
+        let pairs = parallel::map(count, |k| {
+            let mut pairs = Vec::new();
+            self.for_each_pair(k, |pair| pairs.push(*pair));
+            pairs
+        });
         let mut firsts = Vec::with_capacity(count + 1);
         firsts.push(0);
         let mut total = 0;
@@ -44,7 +41,7 @@ impl Density {
             pairs: pairs.concat(),
             volume: self.points.volume.clone(),
             bulk: (0..count).map(|k| self.by_density(k).1).collect(),
-            blocks: (0..count).into_par_iter().map(block).collect(),
+            blocks: parallel::map(count, block),
         }
     }
 }
@@ -68,7 +65,7 @@ impl DensityVariation {
             };
             self.bulk[k] * self.of(k).iter().map(of).sum::<f64>()
         };
-        let pressures: Vec<f64> = (0..moved.len()).into_par_iter().map(pressure).collect();
+        let pressures = parallel::map(moved.len(), pressure);
         // 2. The force of that, and of pairs that turn and come nearer.
         let force = |k: usize| {
             let mut sum = DVec3::ZERO;
@@ -81,7 +78,7 @@ impl DensityVariation {
             }
             sum - self.blocks[k] * moved[k]
         };
-        let forces: Vec<DVec3> = (0..moved.len()).into_par_iter().map(force).collect();
+        let forces = parallel::map(moved.len(), force);
         self.starts.windows(2).map(|w| forces[w[0]..w[1]].to_vec()).collect()
     }
 }

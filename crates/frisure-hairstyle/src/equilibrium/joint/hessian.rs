@@ -5,11 +5,11 @@
 //! of K_kl over what guide i touches. It is never formed: H_i is applied in linear time, K_kl is three by three.
 //! docs/theory.md, "All guides at once" (H1)
 
-use frisure_rod::minimise::{NodeChanges, SecondVariation, SecondVariationFactor};
+use frisure_rod::minimise::{SecondVariation, SecondVariationFactor};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::contact::{Contact, DensityVariation};
+use crate::parallel;
 
 /// One vector for each element of each guide.
 pub(super) type Controls = Vec<Vec<DVec3>>;
@@ -31,23 +31,21 @@ pub(super) enum Coupling {
 }
 
 impl Coupling {
-    /// The change of force (N) at each point of each guide for displacements (m) of them.
+    /// What displacements (m) of the points of all guides change ∂E/∂x (N) at each point by, without what a guide has while the others hold still.
     fn forces(&self, moved: &[&[DVec3]]) -> Vec<Vec<DVec3>> {
         let contacts = match self {
             Self::Density(variation) => return variation.forces(moved),
             Self::Pairs(contacts) => contacts,
         };
-        (contacts.par_iter().zip(moved))
-            .map(|(contacts, own)| {
-                let mut forces = vec![DVec3::ZERO; own.len()];
-                for contact in contacts {
-                    let (other, point) = contact.other;
-                    let displacement = moved[other as usize][point as usize];
-                    forces[contact.point as usize] -= contact.apply(displacement);
-                }
-                forces
-            })
-            .collect()
+        parallel::map(contacts.len(), |i| {
+            let mut forces = vec![DVec3::ZERO; moved[i].len()];
+            for contact in &contacts[i] {
+                let (other, point) = contact.other;
+                let displacement = moved[other as usize][point as usize];
+                forces[contact.point as usize] -= contact.apply(displacement);
+            }
+            forces
+        })
     }
 }
 
@@ -57,18 +55,20 @@ impl JointHessian {
         self.guides.iter().map(|guide| guide.gradient().to_vec()).collect()
     }
 
+    /// What displacements (m) of the sample points of all guides change ∂E/∂x (N) at each by, without what a guide has while the others hold still.
+    pub(super) fn forces(&self, moved: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
+        let moved: Vec<&[DVec3]> = moved.iter().map(Vec::as_slice).collect();
+        self.coupling.forces(&moved)
+    }
+
     /// H x for a step x (rad), and by how much the step moves the points of guides. (H1)
     pub(super) fn apply(&self, step: &Controls) -> Product {
-        let changes: Vec<NodeChanges> =
-            (self.guides.par_iter().zip(step)).map(|(guide, x)| guide.node_changes(x)).collect();
-        let moved: Vec<Vec<DVec3>> = (self.guides.par_iter().zip(step).zip(&changes))
-            .map(|((guide, x), changes)| guide.displacements_with(x, changes))
-            .collect();
-        let displacements: Vec<&[DVec3]> = moved.iter().map(|points| &points[..]).collect();
-        let forces = self.coupling.forces(&displacements);
-        let moments = (self.guides.par_iter().zip(step).enumerate())
-            .map(|(i, (guide, x))| guide.apply_with(x, &changes[i], &forces[i]))
-            .collect();
+        let (guides, count) = (&self.guides, self.guides.len());
+        let changes = parallel::map(count, |i| guides[i].node_changes(&step[i]));
+        let moved = parallel::map(count, |i| guides[i].displacements_with(&step[i], &changes[i]));
+        let forces = self.forces(&moved);
+        let moments =
+            parallel::map(count, |i| guides[i].apply_with(&step[i], &changes[i], &forces[i]));
         Product { moments, moved }
     }
 }
@@ -109,14 +109,15 @@ impl<'a> Preconditioner<'a> {
                 }
             }
         };
-        let factors: Option<Vec<_>> = hessian.guides.par_iter().map(factor).collect();
+        let factors: Option<Vec<_>> =
+            parallel::map_slice(&hessian.guides, factor).into_iter().collect();
         let (factors, exact): (Vec<_>, Vec<bool>) = factors?.into_iter().unzip();
         Some(Self { factors, exact: !exact.contains(&false) })
     }
 
     /// M⁻¹ r (rad) for a residual r (N m).
     pub(super) fn solve(&self, residual: &Controls) -> Controls {
-        self.factors.par_iter().zip(residual).map(|(factor, r)| factor.solve(r)).collect()
+        parallel::map(residual.len(), |i| self.factors[i].solve(&residual[i]))
     }
 }
 

@@ -2,10 +2,10 @@
 
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
-use rayon::prelude::*;
 
 use super::hessian::Coupling;
 use crate::contact::{ContactPairs, Density};
+use crate::parallel;
 
 /// The energy that guides share.
 pub(super) enum Others {
@@ -99,9 +99,7 @@ impl Others {
     /// The second derivatives between guides.
     pub(super) fn coupling(&self, guides: usize) -> Coupling {
         match self {
-            Self::Pairs(pairs) => {
-                Coupling::Pairs((0..guides).into_par_iter().map(|i| pairs.contacts(i)).collect())
-            }
+            Self::Pairs(pairs) => Coupling::Pairs(parallel::map(guides, |i| pairs.contacts(i))),
             Self::Density(density) => Coupling::Density(density.variation()),
             Self::Apart => Coupling::Pairs(vec![Vec::new(); guides]),
         }

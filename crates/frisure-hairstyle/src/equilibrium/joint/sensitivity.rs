@@ -8,6 +8,7 @@ use frisure_rod::Shape;
 use frisure_rod::derivatives::{
     DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
+use frisure_rod::minimise::SecondVariation;
 use glam::DVec3;
 use std::fmt;
 use thiserror::Error;
@@ -79,14 +80,6 @@ pub enum HeadDerivativeError {
         "guide {guide}: the root has no derivative by itself; see `rotation` for the head as a whole"
     )]
     Root {
-        /// Which one.
-        guide: usize,
-    },
-    /// A guide has jointed elements.
-    #[error(
-        "guide {guide} has jointed elements, which have no derivatives among others; set equilibrium.element to \"helix\""
-    )]
-    JointedElements {
         /// Which one.
         guide: usize,
     },
@@ -188,7 +181,7 @@ impl HeadSensitivity {
     /// Brings a head to rest as far as rounding allows, from where it is.
     ///
     /// # Errors
-    /// [`HeadDerivativeError`], if hair has friction or elements are jointed, if the head does not come to rest or is at no minimum, or if the work is
+    /// [`HeadDerivativeError`], if hair has friction, if the head does not come to rest or is at no minimum, or if the work is
     /// cancelled.
     pub fn new(
         hairstyle: &Hairstyle,
@@ -273,13 +266,17 @@ impl HeadSensitivity {
             .map(|(i, (guide, by_nodes))| guide.moments_of(by_nodes).map_err(in_guide(i)))
             .collect::<Result<Controls, _>>()?;
         let adjoint = self.solve(&right)?;
+        // f of (D8): halves of jointed elements move against what guides share.
+        let moved = self.hessian.guides.iter().zip(&adjoint);
+        let moved: Vec<_> = moved.map(|(guide, a)| guide.displacements(a)).collect();
+        let forces = self.hessian.forces(&moved);
         // 2. −aᵀ ∂g/∂p of each parameter of each guide, and of contact.
         let mut rotation = DVec3::ZERO;
         let mut guides = Vec::with_capacity(self.guides.len());
         for (i, ((guide, by_nodes), a)) in
             self.guides.iter().zip(by_nodes).zip(&adjoint).enumerate()
         {
-            let gradient = guide.vjp_by_adjoint(by_nodes, a).map_err(in_guide(i))?;
+            let gradient = guide.vjp_by_adjoint(by_nodes, a, &forces[i]).map_err(in_guide(i))?;
             // 3. About the origin in place of the root; the load of each is turned back.
             let root = guide.shape().positions[0];
             rotation += gradient.root_rotation + root.cross(gradient.root_position);
@@ -326,11 +323,37 @@ impl HeadSensitivity {
         let [by_hair, by_skin] = &self.by_stiffness;
         add(&mut right, -change.hair_stiffness, by_hair);
         add(&mut right, -change.skin_stiffness, by_skin);
+        self.add_by_halves(&turned, &mut right)?;
         // 2. H δc = −∂g/∂p δp, and how that moves nodes.
         let controls = self.solve(&right)?;
         (self.guides.iter().zip(&turned).zip(&controls).enumerate())
             .map(|(i, ((guide, change), x))| guide.jvp_by_controls(change, x).map_err(in_guide(i)))
             .collect()
+    }
+
+    /// Adds −∂g/∂p δp of guides whose jointed elements a change of natural strain moves against others at once. docs/theory.md (D8)
+    fn add_by_halves(
+        &self,
+        changes: &[ParameterChange],
+        right: &mut Controls,
+    ) -> Result<(), HeadDerivativeError> {
+        let moved = (self.guides.iter().zip(changes).enumerate())
+            .map(|(i, (guide, change))| guide.displacements_of_change(change).map_err(in_guide(i)))
+            .collect::<Result<Vec<_>, _>>()?;
+        if moved.iter().all(Option::is_none) {
+            return Ok(());
+        }
+        let guides = &self.hessian.guides;
+        let still = |(moved, guide): (Option<Vec<DVec3>>, &SecondVariation)| {
+            moved.unwrap_or_else(|| vec![DVec3::ZERO; guide.sample_count()])
+        };
+        let moved: Vec<Vec<DVec3>> = moved.into_iter().zip(guides).map(still).collect();
+        let forces = self.hessian.forces(&moved);
+        for ((right, guide), forces) in right.iter_mut().zip(guides).zip(&forces) {
+            let more = guide.by_controls(forces);
+            right.iter_mut().zip(more).for_each(|(right, more)| *right -= more);
+        }
+        Ok(())
     }
 
     /// Conjugate gradients for H x = b, preconditioned by each guide's own Hessian, \[Nocedal & Wright\] algorithm 5.3.
@@ -372,10 +395,7 @@ impl HeadSensitivity {
 }
 
 fn in_guide(guide: usize) -> impl Fn(DerivativeError) -> HeadDerivativeError {
-    move |error| match error {
-        DerivativeError::JointedElements => HeadDerivativeError::JointedElements { guide },
-        _ => HeadDerivativeError::Guide { guide, error },
-    }
+    move |error| HeadDerivativeError::Guide { guide, error }
 }
 
 #[cfg(test)]
@@ -384,10 +404,10 @@ mod tests {
     use super::*;
     use crate::spec::{HairContact, HairstyleSpec, HeadMethod};
     use crate::{PredictOptions, predict, preset};
-    use frisure_rod::{ElementKind, NaturalStrain, Resolution, Rod};
+    use frisure_rod::{Chain, ElementKind, NaturalStrain, Resolution, Rod};
     use glam::DQuat;
 
-    fn described(contact: HairContact) -> HairstyleSpec {
+    fn described(contact: HairContact, element: ElementKind) -> HairstyleSpec {
         let mut spec = preset("caucasian-curly").unwrap().spec();
         if contact == HairContact::Density {
             // So few wisps do not press on each other otherwise.
@@ -403,7 +423,7 @@ mod tests {
         // What holds combed hair reaches as far as its curl lets it: no derivative has that.
         spec.implantation.hold = 0.0;
         spec.wisps.count = 30;
-        spec.equilibrium.element = ElementKind::Helix;
+        spec.equilibrium.element = element;
         spec.equilibrium.resolution = Resolution::Elements(12);
         spec
     }
@@ -420,10 +440,13 @@ mod tests {
         at_rest.shapes().flat_map(|shape| shape.positions.clone()).collect()
     }
 
-    /// Gives a guide another rod.
+    /// Gives a guide another rod, which the same controls bend.
     fn set_rod(hairstyle: &mut Hairstyle, guide: usize, rod: &Rod) {
+        let rest = &mut hairstyle.rest.guides[guide];
+        let chain = Chain::uniform(rod, rest.element, rest.elements);
+        rest.shape = chain.shape(rest.shape.controls.clone());
+        rest.rod = rod.clone();
         hairstyle.guides[guide].rod = rod.clone();
-        hairstyle.rest.guides[guide].rod = rod.clone();
     }
 
     /// The rod of a guide with a change of its uniform part of natural strain and of its moduli.
@@ -438,10 +461,10 @@ mod tests {
     }
 
     /// jvp and vjp against central differences of the whole head brought to rest.
-    fn agrees(contact: HairContact, most: f64) {
+    fn agrees(contact: HairContact, element: ElementKind, most: f64) {
         let head = Head::mannequin();
         let mut hairstyle =
-            predict(&described(contact), &head, PredictOptions::default(), &()).unwrap();
+            predict(&described(contact, element), &head, PredictOptions::default(), &()).unwrap();
         // Uniform strain, so that its change is that of `ParameterChange`.
         for i in 0..hairstyle.guides.len() {
             let rod = changed(&hairstyle.guides[i].rod, DVec3::ZERO);
@@ -472,7 +495,7 @@ mod tests {
         changes.push(HeadChange { guides: guides.collect(), ..HeadChange::default() });
         let turn = DVec3::new(0.3, -0.5, 0.2);
         changes.push(HeadChange { rotation: turn, ..HeadChange::default() });
-        let steps = [1e-4 * hairstyle.spec.contact.hair_stiffness, 1e-2, 1e-4, 1e-5];
+        let steps = [1e-5 * hairstyle.spec.contact.hair_stiffness, 0.3, 2e-5, 1e-6];
         for (k, (change, step)) in changes.iter().zip(steps).enumerate() {
             let at = |sign: f64| {
                 moved(&hairstyle, &head, |other| match k {
@@ -500,12 +523,18 @@ mod tests {
             let found: Vec<DVec3> = found.into_iter().flat_map(|change| change.positions).collect();
             let gap: Vec<DVec3> = found.iter().zip(&expected).map(|(a, b)| *a - *b).collect();
             let [gap, size] = [&gap, &expected].map(|x| product(x, x).sqrt());
-            assert!(size > 0.0 || (k == 1 && contact != HairContact::None), "{contact:?} {k}");
-            assert!(gap <= most * size, "{contact:?} {k}: {gap} of {size}");
+            assert!(
+                size > 0.0 || (k == 1 && contact != HairContact::None),
+                "{contact:?} {element:?} {k}"
+            );
+            assert!(gap <= most * size, "{contact:?} {element:?} {k}: {gap} of {size}");
             // The two products are each other's transposes.
             let weights: Vec<DVec3> = loss.iter().flat_map(|of| of.positions.clone()).collect();
             let (along, by) = (product(&weights, &found), gradient.along(change));
-            assert!((along - by).abs() <= 1e-7 * along.abs(), "{contact:?} {k}: {along} {by}");
+            assert!(
+                (along - by).abs() <= 1e-7 * along.abs(),
+                "{contact:?} {element:?} {k}: {along} {by}"
+            );
         }
     }
 
@@ -526,10 +555,12 @@ mod tests {
     #[test]
     fn derivatives_of_a_head_agree_with_differences() {
         // Contact is twice differentiable only: differences are exact to first order.
-        agrees(HairContact::Wisps, 5e-6);
-        agrees(HairContact::Density, 5e-6);
-        agrees(HairContact::Layers, 1e-6);
-        agrees(HairContact::None, 1e-5);
+        for element in [ElementKind::Helix, ElementKind::Jointed] {
+            agrees(HairContact::Wisps, element, 5e-6);
+            agrees(HairContact::Density, element, 5e-6);
+            agrees(HairContact::Layers, element, 1e-6);
+            agrees(HairContact::None, element, 1e-5);
+        }
     }
 
     #[test]
@@ -537,7 +568,7 @@ mod tests {
         let head = Head::mannequin();
         let predicted =
             |spec: &HairstyleSpec| predict(spec, &head, PredictOptions::default(), &()).unwrap();
-        let mut spec = described(HairContact::Layers);
+        let mut spec = described(HairContact::Layers, ElementKind::Helix);
         spec.wisps.count = 4;
         let hairstyle = predicted(&spec);
         let at_rest = HeadSensitivity::new(&hairstyle, &head, &()).unwrap();
@@ -556,10 +587,8 @@ mod tests {
         let mut rubs = spec.clone();
         rubs.contact.skin_friction = 0.3;
         assert_eq!(error(&rubs), HeadDerivativeError::Friction);
-        spec.equilibrium.element = ElementKind::Jointed;
-        assert_eq!(error(&spec), HeadDerivativeError::JointedElements { guide: 0 });
         // Wisps whose order is decided, but which are not at rest.
-        let mut swept = described(HairContact::Wisps);
+        let mut swept = described(HairContact::Wisps, ElementKind::Helix);
         swept.equilibrium.method = HeadMethod::Sweeps;
         swept.contact.volume = 4.0;
         let error = error(&swept).to_string();

@@ -3,7 +3,6 @@
 use frisure_rod::Equilibrium;
 use frisure_rod::derivatives::{DerivativeError, Sensitivity};
 use frisure_rod::potential::Yielding;
-use rayon::prelude::*;
 
 use super::super::friction_solver::Hold;
 use super::super::wisp::{
@@ -16,6 +15,7 @@ use crate::contact::{Density, FrictionGap, Layer, Pull};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
+use crate::parallel;
 use crate::spec::{HairContact, HairstyleSpec};
 
 /// Least distance (m) beyond their thickness within which neighbours are searched. Chosen: a fraction of a wisp's radius.
@@ -91,7 +91,7 @@ impl<'a> HeadState<'a> {
 
     /// Lets hairs inside wisps that slipped stick where they are now.
     pub(super) fn follow_locks(&mut self) {
-        self.wisps.par_iter_mut().for_each(Wisp::follow_lock);
+        parallel::for_each_mut(&mut self.wisps, |_, wisp| wisp.follow_lock());
     }
 
     /// Sets the share of the stiffness with which wisps repel each other. The bed of hair, which stands for the other wisps
@@ -161,7 +161,7 @@ impl<'a> HeadState<'a> {
 
     /// Largest distance (m) that a step moves a node of each guide.
     pub(super) fn lengths(&self, step: &Controls) -> Vec<f64> {
-        self.wisps.par_iter().zip(step).map(|(wisp, x)| wisp.length_of(x)).collect()
+        parallel::map(self.wisps.len(), |i| self.wisps[i].length_of(&step[i]))
     }
 
     /// Whether hair is a density.
@@ -176,28 +176,24 @@ impl<'a> HeadState<'a> {
 
     /// Goes a fraction of a step from given shapes.
     pub(super) fn go(&mut self, from: &[Settled], step: &Controls, fraction: f64) {
-        let points: Vec<_> = (self.wisps.par_iter_mut().enumerate())
-            .map(|(i, wisp)| wisp.go(&from[i], &step[i], fraction))
-            .collect();
+        let points =
+            parallel::map_mut(&mut self.wisps, |i, wisp| wisp.go(&from[i], &step[i], fraction));
         self.others.place(points);
     }
 
     /// Energy of the head (J), with that of the tethers.
     pub(super) fn energy(&self) -> f64 {
-        let share = |(i, wisp): (usize, &Wisp<'_>)| {
-            wisp.share(&*self.others.shared(i), self.anchors[i].as_ref())
-        };
+        let share =
+            |i: usize| self.wisps[i].share(&*self.others.shared(i), self.anchors[i].as_ref());
         // Summed in order, so that it does not depend on threads.
-        self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
+        parallel::map(self.wisps.len(), share).iter().sum()
     }
 
     /// The second variation of that energy.
     pub(super) fn hessian(&self) -> JointHessian {
-        let guides = (self.wisps.par_iter().enumerate())
-            .map(|(i, wisp)| {
-                wisp.second_variation(&*self.others.around(i), self.anchors[i].as_ref())
-            })
-            .collect();
+        let guides = parallel::map(self.wisps.len(), |i| {
+            self.wisps[i].second_variation(&*self.others.around(i), self.anchors[i].as_ref())
+        });
         JointHessian { guides, coupling: self.others.coupling(self.wisps.len()) }
     }
 
@@ -206,26 +202,23 @@ impl<'a> HeadState<'a> {
     /// # Errors
     /// The first guide that has none, and why.
     pub(super) fn sensitivities(&self) -> Result<Vec<Sensitivity>, (usize, DerivativeError)> {
-        let of = |(i, wisp): (usize, &Wisp<'_>)| {
-            wisp.sensitivity(&*self.others.around(i)).map_err(|error| (i, error))
-        };
-        // The first guide's error, whichever thread is first.
-        let all: Vec<_> = self.wisps.par_iter().enumerate().map(of).collect();
-        all.into_iter().collect()
+        parallel::try_map(self.wisps.len(), |i| {
+            self.wisps[i].sensitivity(&*self.others.around(i)).map_err(|error| (i, error))
+        })
     }
 
     /// Derivative of the energy by every control (N m), by the stiffness of hair and by that of skin (Pa): ∂g/∂p. The stiffness of skin that a tight
     /// curl needs does not change with that of the description.
     pub(super) fn gradients_by_stiffness(&self, spec: &HairstyleSpec) -> [Controls; 2] {
-        let of_hair = |(i, wisp): (usize, &Wisp<'_>)| {
-            let mut gradient = wisp.gradient_by_hair();
-            let others = wisp.gradient_among(&*self.others.around(i));
+        let of_hair = |i: usize| {
+            let mut gradient = self.wisps[i].gradient_by_hair();
+            let others = self.wisps[i].gradient_among(&*self.others.around(i));
             gradient.iter_mut().zip(others).for_each(|(g, of)| *g += of / self.stiffness);
             gradient
         };
         let of_skin = |wisp: &Wisp<'_>| wisp.gradient_by_skin(spec);
-        let hair = self.wisps.par_iter().enumerate().map(of_hair).collect();
-        [hair, self.wisps.par_iter().map(of_skin).collect()]
+        let hair = parallel::map(self.wisps.len(), of_hair);
+        [hair, parallel::map_slice(&self.wisps, of_skin)]
     }
 
     /// Largest derivative by any control, relative to the moment scale EI/L + ρSgL² of its guide.

@@ -4,11 +4,11 @@ use frisure_progress::{Cancelled, Progress, StageCounter};
 use frisure_rod::batch::{BatchSolution, ConfinementTube, Contact, ContactField};
 use frisure_rod::{Node, Rod, Stability};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::envelope::{Envelope, Room};
 use super::{CHUNK, ELEMENTS, Planned, Rested, Simulated, Simulation, TOLERANCE, counts};
 use crate::implantation::Root;
+use crate::parallel;
 use crate::strand_contact::{InteractionForm, SettledStrands, StrandSystem, settle, stages};
 use crate::strands::curve::Hair;
 
@@ -94,11 +94,11 @@ impl<'a> Simulated<'a> {
                 (first - n, hair)
             })
             .collect();
-        let hairs = places.par_iter().map(|(first, hair)| {
+        let hairs = parallel::map_slice(&places, |(first, hair)| {
             let n = hair.controls.len();
             (hair.planned.place, self.line(hair, controls[*first..first + n].to_vec()))
         });
-        for (place, hair) in hairs.collect::<Vec<_>>() {
+        for (place, hair) in hairs {
             drawn[place] = Some(hair);
         }
         Ok((drawn.into_iter().flatten().collect(), simulation))
@@ -134,8 +134,8 @@ impl<'a> Simulated<'a> {
             }
             Ok((drawn, started, simulation))
         };
-        let chunks: Vec<_> =
-            roots.par_chunks(CHUNK).map(chunk).collect::<Result<_, Cancelled>>()?;
+        let chunks: Vec<_> = roots.chunks(CHUNK).collect();
+        let chunks = parallel::try_map(chunks.len(), |i| chunk(chunks[i]))?;
         let mut drawn = Vec::with_capacity(roots.len());
         let mut groups: Vec<Vec<Started<'a>>> = ELEMENTS.iter().map(|_| Vec::new()).collect();
         let mut simulation = Simulation::default();
@@ -171,7 +171,7 @@ impl<'a> Simulated<'a> {
             }
             (first, envelope)
         };
-        Envelopes { groups: groups.par_iter().map(envelope).collect() }
+        Envelopes { groups: parallel::map_slice(&groups, envelope) }
     }
 
     /// The drawn line of a hair whose joints are turned so (rad).

@@ -13,8 +13,7 @@ mod simulation;
 
 use frisure_rod::batch::{Batch, BatchSolution, Frames, InitialShape, RodSolution};
 use frisure_rod::{Node, Rod, Stability, centre_line};
-use glam::{DMat3, DQuat};
-use rayon::prelude::*;
+use glam::{DMat3, DQuat, DVec3};
 
 use super::binding::StrandBinding;
 use super::curve::Hair;
@@ -22,6 +21,7 @@ use super::population::Population;
 use super::skin::{Free, LAID};
 use crate::hairstyle::Hairstyle;
 use crate::implantation::Root;
+use crate::parallel;
 pub use checkpoint::Checkpoint;
 use checkpoint::{part_from_bytes, part_to_bytes};
 use envelope::{Envelope, Room};
@@ -107,7 +107,9 @@ impl<'a> Simulated<'a> {
         stage: &StageCounter<'_>,
         checkpoint: Option<&dyn Checkpoint>,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
-        let chunk = |(part, roots): (usize, &[(usize, Root)])| {
+        let chunks: Vec<_> = roots.chunks(CHUNK).collect();
+        let chunk = |part: usize| {
+            let roots = chunks[part];
             let saved = checkpoint.and_then(|checkpoint| checkpoint.find(part));
             if let Some(known) = saved.and_then(|bytes| part_from_bytes(bytes, roots.len())) {
                 roots.iter().for_each(|_| stage.advance());
@@ -119,8 +121,7 @@ impl<'a> Simulated<'a> {
             }
             Ok((hairs, simulation))
         };
-        let chunks: Vec<(Vec<Hair>, Simulation)> =
-            roots.par_chunks(CHUNK).enumerate().map(chunk).collect::<Result<_, Cancelled>>()?;
+        let chunks = parallel::try_map(chunks.len(), chunk)?;
         let mut hairs = Vec::with_capacity(roots.len());
         let mut simulation = Simulation::default();
         for (some, of) in chunks {
@@ -236,12 +237,12 @@ impl<'a> Simulated<'a> {
         let count = self.population.spec.wisps.points;
         let step = length / (count - 1) as f64;
         let mut free = Free::NOWHERE;
-        (centre_line(nodes, length, count).enumerate())
-            .map(|(k, p)| {
-                let s = k as f64 * step;
-                self.population.skin.lay(root, p, s, LAID, &mut free).as_vec3()
-            })
-            .collect()
+        let mut points: Vec<DVec3> = (centre_line(nodes, length, count).enumerate())
+            .map(|(k, p)| self.population.skin.lay(root, p, k as f64 * step, LAID, &mut free))
+            .collect();
+        // A line that still cuts is reported with the depth of hair.
+        let _ = self.population.skin.lift_lines(&mut points);
+        points.into_iter().map(DVec3::as_vec3).collect()
     }
 }
 

@@ -1,26 +1,23 @@
 //! Cutting.
 
-use frisure_rod::Equilibrium;
-use rayon::prelude::*;
-
+use super::apply::{Apply, FARTHEST, check_direction, check_point};
 use super::cut_line::{CutLine, Held};
 use super::scissors::{Scissors, enough};
 use super::trim;
+use crate::equilibrium::Change;
+use crate::hairstyle::Ends;
 use crate::hairstyle::Hairstyle;
+use crate::implantation::Root;
+use crate::parallel;
+use crate::random::{Purpose, Stream};
+use crate::spec::Level;
 use crate::spec::{InvalidSpec, Range};
+use crate::strands::Population;
 use crate::styling::error::StyleError;
+use crate::styling::height::Height;
 use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
-use super::apply::{Apply, FARTHEST, check_direction, check_point};
-use crate::equilibrium::Change;
-use crate::styling::height::Height;
-use crate::guides::Guide;
-use crate::hairstyle::Ends;
-use crate::implantation::Root;
-use crate::spec::Level;
-use crate::random::{Purpose, Stream};
-use crate::strands::Population;
 
 /// Cuts hair. \[paper\] §3.2
 #[derive(Clone, Debug, PartialEq)]
@@ -137,11 +134,10 @@ impl Apply for Cut {
         let Act { before: hair, head, .. } = *act;
         let chosen = act.selected(&self.selection)?;
         let scissors = Scissors::new(self.line, self.held, head);
-        let left = |(guide, rest): (&Guide, &Equilibrium)| match scissors.hanging() {
-            true => scissors.left_hanging(rest),
-            false => scissors.left_straight(&guide.root),
-        };
-        let left: Vec<f64> = hair.guides.par_iter().zip(&hair.rest.guides).map(left).collect();
+        let left = parallel::map(hair.guides.len(), |i| match scissors.hanging() {
+            true => scissors.left_hanging(&hair.rest.guides[i]),
+            false => scissors.left_straight(&hair.guides[i].root),
+        });
         let none = |i: &usize| chosen[*i] && !enough(left[*i]);
         let wisps: Vec<usize> = (0..left.len()).filter(none).collect();
         if !wisps.is_empty() {

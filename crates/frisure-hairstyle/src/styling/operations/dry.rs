@@ -1,16 +1,16 @@
 //! Drying.
 
 use frisure_rod::{InvalidQuantity, NaturalStrain};
-use rayon::prelude::*;
 
-use crate::hairstyle::{Hairstyle, WispState};
-use crate::spec::{InvalidSpec, Range};
+use super::apply::Apply;
+use crate::hairstyle::Hairstyle;
+use crate::hairstyle::strain_of;
+use crate::parallel;
 use crate::presets::Moisture;
+use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
-use super::apply::Apply;
-use crate::hairstyle::strain_of;
 
 /// Dries hair: the inverse of wetting, except that hair held in a shape keeps part of it.
 /// \[paper\] §3.2
@@ -62,10 +62,10 @@ fn shapes_kept(
     hair: &Hairstyle,
     chosen: &[bool],
 ) -> Result<Vec<Option<NaturalStrain>>, InvalidQuantity> {
-    let kept = |(index, wisp): (usize, &WispState)| {
+    parallel::try_map(hair.styling.wisps.len(), |index| {
+        let wisp = &hair.styling.wisps[index];
         let setting = chosen[index] && wisp.wetness > 0.0 && wisp.is_held();
         let stretch = hair.guides[index].rod.length() / wisp.length;
         setting.then(|| strain_of(&hair.rest.guides[index], stretch)).transpose()
-    };
-    hair.styling.wisps.par_iter().enumerate().map(kept).collect()
+    })
 }

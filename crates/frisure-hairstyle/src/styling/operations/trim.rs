@@ -4,10 +4,10 @@
 //! guides are cut, come to rest together, and are cut again or left longer, each by the secant method on the length that is left.
 
 use frisure_rod::Equilibrium;
-use rayon::prelude::*;
 
 use super::scissors::{Scissors, enough};
 use crate::hairstyle::Hairstyle;
+use crate::parallel;
 use crate::styling::error::StyleError;
 use crate::styling::settle::Act;
 
@@ -38,12 +38,10 @@ pub(super) fn trimmed(
     let mut searches: Vec<Search> = most.iter().map(|most| Search::new(*most)).collect();
     for _ in 0..act.draft.map_or(ROUNDS, |_| DRAFT_ROUNDS) {
         let now = &hair;
-        let next: Vec<Option<f64>> = (searches.par_iter_mut().enumerate())
-            .map(|(i, search)| {
-                let rest = chosen[i].then(|| &now.rest.guides[i])?;
-                search.next(now.styling.wisps[i].length, scissors, rest)
-            })
-            .collect();
+        let next: Vec<Option<f64>> = parallel::map_mut(&mut searches, |i, search| {
+            let rest = chosen[i].then(|| &now.rest.guides[i])?;
+            search.next(now.styling.wisps[i].length, scissors, rest)
+        });
         if next.iter().all(Option::is_none) {
             break;
         }

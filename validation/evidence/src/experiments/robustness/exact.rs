@@ -16,6 +16,9 @@ const OTHER: f64 = 1e-3;
 /// Error over the length below which an estimate is not checked: the exactness of the boundary-value problem. Chosen.
 const ROUNDING: f64 = 1e-9;
 
+/// Fibres that hardly resist twist.
+const SOFT: &str = "soft in twist";
+
 /// The boundary-value problem's results for a hair that frisure solved.
 struct Checked {
     /// Distance to the solution beside frisure's line, over the requested accuracy, and the index of that solution.
@@ -66,14 +69,23 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
         |i: usize| Checked::of(&random::two_curls(&mut random::stream(76, i))?, 1e-4, false);
     let two_curls: Vec<Checked> =
         some(effort.pick(40, 1000)).map(two_curls).collect::<Result<_, Stopped>>()?;
+    let soft = |i: usize| {
+        let spec = random::soft_in_twist(&mut random::stream(77, i))?;
+        Checked::of(&spec, 1e-3 * spec.length, false)
+    };
+    let soft: Vec<Checked> =
+        some(effort.pick(20, 300)).map(soft).collect::<Result<_, Stopped>>()?;
     let kinds = [
         ("realistic", &realistic[..]),
         ("absurd", &absurd[..]),
         ("realistic with two curls", &two_curls[..]),
+        (SOFT, &soft[..]),
     ];
     tabulate(finding, &kinds);
     for (kind, checked) in kinds {
-        beside(finding, kind, checked);
+        // The boundary-value problem does not converge for a few fibres with layers of twist a thousandth of their length wide.
+        let least = if kind == SOFT { 0.98 } else { 1.0 };
+        beside(finding, kind, checked, least);
     }
     followed(finding, &realistic);
     Ok(())
@@ -108,7 +120,7 @@ fn tabulate(finding: &mut Finding, kinds: &[(&str, &[Checked])]) {
 }
 
 /// Checks that every line is a solution of the boundary-value problem, and a minimum there too.
-fn beside(finding: &mut Finding, kind: &str, checked: &[Checked]) {
+fn beside(finding: &mut Finding, kind: &str, checked: &[Checked], least: f64) {
     let solved: Vec<(f64, usize)> = checked.iter().filter_map(|j| j.beside).collect();
     let part = |count: usize| count as f64 / checked.len() as f64;
     finding.check(
@@ -117,12 +129,12 @@ fn beside(finding: &mut Finding, kind: &str, checked: &[Checked]) {
             checked.len()
         ),
         part(solved.len()),
-        Limit::AtLeast(1.0),
+        Limit::AtLeast(least),
     );
     finding.check(
         format!("share of {} {kind} hairs whose solution has Morse's index 0", checked.len()),
         part(solved.iter().filter(|s| s.1 == 0).count()),
-        Limit::AtLeast(1.0),
+        Limit::AtLeast(least),
     );
     finding.check(
         format!("share of {} {kind} hairs whose error is above frisure's estimate", checked.len()),

@@ -23,7 +23,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         ratios up to 10, moduli of rubber to diamond, Γ from 0 to 30 000, natural turns up to forty; solved to a thousandth of the \
         length with at most 4000 elements. The certificate of each is its relative gradient and whether its second \
         variation is positive: numbers of frisure's own solver. An independent check covers some hairs of both \
-        kinds, and hairs with two curls, whose strain changes linearly from one to the other or jumps. The boundary-value problem starts Newton's method at frisure's line, on equations \
+        kinds, and hairs with two curls, whose strain changes linearly from one to the other or jumps, and fibres that hardly resist twist (G/E from 1e-4 to 3e-3, axis ratios up to 13, solved to a thousandth of the length). The boundary-value problem starts Newton's method at frisure's line, on equations \
         that do not depend on the start: the distance of its solution from the line is the error, and Morse's index of the \
         solution states whether it is a minimum. The boundary-value problem also solves the realistic hairs from the natural shape, \
         as the weight increases; it fails where it cannot follow a stable branch. G/E is random: E 1 to 5 GPa and G \
