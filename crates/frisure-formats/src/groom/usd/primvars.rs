@@ -82,6 +82,14 @@ pub(super) fn given(
 }
 
 impl Given {
+    /// Refuses values of several numbers each, as of `float3[]` or with an `elementSize`.
+    pub(super) fn of_single_numbers(self, name: &str) -> Result<Self, String> {
+        if self.width == 1 {
+            return Ok(self);
+        }
+        Err(format!("each value of `{name}` has {} numbers where 1 is needed", self.width))
+    }
+
     /// The only value, of a constant.
     pub(super) fn constant(&self) -> Option<Vec<f32>> {
         if self.per == Per::Prim { floats(&self.data) } else { None }
@@ -233,6 +241,7 @@ pub(super) fn guides(place: &StagePrim, taps: &Taps) -> Result<Option<Vec<bool>>
     if given.per.domain() != Domain::Strand {
         return Ok(None);
     }
+    let given = given.of_single_numbers(IS_GUIDE)?;
     let all = given.integers(taps);
     Ok(all.map(|all| all.iter().map(|&x| x != 0).collect()))
 }

@@ -96,6 +96,7 @@ fn curves(place: &StagePrim, taps: &Taps, frame: Frame) -> Result<Curves, String
     }
     let positions: &[[f32; 3]] = positions.as_chunks().0;
     let widths = given(place, "widths", Per::Vertex, taps)?;
+    let widths = widths.map(|w| w.of_single_numbers("widths")).transpose()?;
     let mut diameters = widths.and_then(|w| w.at_points(taps)).unwrap_or_default();
     let size = scale(&place.world);
     if size != 1.0 {

@@ -143,7 +143,7 @@ fn other_units_and_axes_come_back_as_they_were() {
         }
         let d1 = |groom: &Groom| groom.hairs.attribute(attributes::DIRECTOR).cloned();
         assert_eq!(d1(&read), d1(&whole()));
-        let described = FrameChoice { metres: Some(0.1), up: None };
+        let described = FrameChoice { metres: Some(0.1), ..FrameChoice::default() };
         let larger = decode(&bytes(&strands(1, 5).into_groom(), frame, binary), described).unwrap();
         assert!((larger.hairs.points()[0].z - 15.0).abs() < 1e-4);
     }
@@ -318,6 +318,13 @@ fn values_that_do_not_fit_are_told_with_their_prim() {
     assert!(
         fault("int[] primvars:groom_id:indices = [7]\nint[] primvars:groom_id = [1]")
             .contains("index")
+    );
+    assert_eq!(
+        fault("int2[] primvars:groom_guide = [(0, 1)] (interpolation = \"uniform\")"),
+        "</s/a>: each value of `primvars:groom_guide` has 2 numbers where 1 is needed"
+    );
+    assert!(
+        fault("float[] widths = [1, 2, 3, 4] (elementSize = 2)").contains("`widths` has 2 numbers")
     );
     let bad = text(
         "def BasisCurves \"a\" { int[] curveVertexCounts = [2, -1] point3f[] points = [(0, 0, 0)] }",
