@@ -7,7 +7,7 @@ use std::path::Path;
 use common::{Case, accuracy, curl, elements, reference_cases, straight};
 use frisure_rod::{
     AccuracyStatus, ElementKind, Equilibrium, Load, NaturalStrain, Options, Rod, RodSpec, Root,
-    Stability, StrainProfile, equilibrium,
+    Section, Stability, StrainProfile, equilibrium,
 };
 use glam::DVec3;
 
@@ -284,6 +284,41 @@ fn waves_shorter_than_elements_are_resolved_or_told() {
             error <= estimate && estimate <= fraction * length,
             "{fraction}: {error} {estimate}"
         );
+    }
+}
+
+/// A twist to and fro in short waves turns the section of a fibre that is not round by its mean, as a turned root does.
+#[test]
+fn waves_of_twist_are_a_turn_of_the_section() {
+    let (length, waves, most, phase) = (0.1, 768, 120.0, 0.4_f64);
+    let knots = (0..=8 * waves).map(|k| {
+        let s = length * f64::from(k) / f64::from(8 * waves);
+        (s, DVec3::Z * (most * (std::f64::consts::TAU * f64::from(k) / 8.0 + phase).sin()))
+    });
+    let natural = NaturalStrain::Varying(StrainProfile::new(knots.collect()).unwrap());
+    // Linear between knots: over a wave the mean of the turn is that of a sine, times (sin(x/2)/(x/2))² at x = 2π/8.
+    let half = std::f64::consts::PI / 8.0;
+    let turn = most * length / (std::f64::consts::TAU * f64::from(waves))
+        * phase.cos()
+        * (half.sin() / half).powi(2);
+    let fibre = |natural, turn: f64| {
+        let (d1, d2) = (DVec3::new(0.0, 0.8, 0.6), DVec3::new(0.0, -0.6, 0.8));
+        let d1 = d1 * turn.cos() + d2 * turn.sin();
+        let root = Root::from_tangent(DVec3::ZERO, DVec3::X, d1).unwrap();
+        let section = Section::from_diameter(80e-6, 1.5).unwrap();
+        Rod::new(RodSpec { length, section, natural, root, ..curl() }).unwrap()
+    };
+    let turned = fibre(NaturalStrain::STRAIGHT, turn);
+    let exact = equilibrium(&turned, &[], &accuracy(&turned, 1e-8)).tip();
+    let still = equilibrium(&fibre(NaturalStrain::STRAIGHT, 0.0), &[], &accuracy(&turned, 1e-8));
+    // The mean turn displaces the tip far more than what a wave does besides.
+    assert!(still.tip().distance(exact) > 5e-4 * length);
+    let waved = fibre(natural, 0.0);
+    for fraction in [1e-4, 1e-5] {
+        let rest = equilibrium(&waved, &[], &accuracy(&waved, fraction));
+        assert_eq!(rest.certificate.accuracy, AccuracyStatus::Met, "{fraction}");
+        let error = rest.tip().distance(exact);
+        assert!(error <= fraction * length, "{fraction}: {error}");
     }
 }
 
