@@ -67,6 +67,59 @@ def test_each_argument_has_the_derivative_that_differences_have(natural: dict[st
     assert (gradient.curl_radius is None) == ("natural_strain" in natural)
 
 
+@pytest.mark.parametrize("natural", [CURL, KNOTS, {"natural_strain": np.array([50.0, 5.0, 20.0])}])
+def test_energies_and_frames_have_the_derivatives_that_differences_have(natural: dict[str, Any]) -> None:
+    arguments = RODS | natural
+    rest = rods.settle(**arguments, **OPTIONS, derivatives=True, frames=True)
+    assert rest.frames is not None and rest.points is not None
+    # A frame is a rotation, whose last row is the tangent: at the clamp that which was given.
+    assert np.allclose(rest.frames @ np.swapaxes(rest.frames, -1, -2), np.eye(3))
+    tangent = np.asarray(RODS["tangent"])
+    assert np.allclose(rest.frames[:, 0, 2], tangent / np.linalg.norm(tangent, axis=1, keepdims=True))
+    # Σ W·F has along a rotation ω of the frame F the derivative ω·Σ f × w, over the rows f of F and w of W.
+    weights = np.random.default_rng(5).normal(size=rest.frames.shape)
+    by_frames = np.cross(rest.frames, weights).sum(axis=-2)
+    scale = 1.0 / np.abs(rest.energy)
+    gradient = rest.vjp(by_frames=by_frames, by_energy=scale)
+    energy = rest.vjp(by_energy=scale)
+    assert (energy.eigenvalue_bound == 1.0).all() and not energy.root.any()
+    for name, value in arguments.items():
+        exact, of_energy = getattr(gradient, name), getattr(energy, name)
+        for index in np.ndindex(exact.shape[1:]):
+            given = np.asarray(value, dtype=np.float64)
+            size = np.abs(given).max() if name not in ("root", "natural_strain") else {"root": 0.01, "natural_strain": 30.0}[name]
+            step, values = 1e-4 * size, []
+            for k in (-2, -1, 1, 2):
+                changed = given.copy()
+                changed[(..., *index)] += k * step
+                moved = rods.settle(**{**arguments, name: changed}, **OPTIONS, frames=True)
+                values.append(np.stack([(moved.frames * weights).sum(axis=(1, 2, 3)), moved.energy * scale]))
+            frames, energies = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * step)
+            row = (slice(None), *index)
+            assert np.allclose(of_energy[row], energies, rtol=1e-5, atol=1e-6 * np.abs(of_energy).max() + 1e-9), (name, index)
+            assert np.allclose(exact[row], frames + energies, rtol=1e-5, atol=1e-6 * np.abs(exact).max() + 1e-8), (name, index)
+
+
+def test_the_smallest_eigenvalue_says_how_near_a_loss_of_stability_is() -> None:
+    curl: dict[str, Any] = {"curl_radius": 5e-3, "curl_pitch": 0.02, "eigenvalue": True}
+    assert rods.settle(0.15, curl_radius=5e-3, curl_pitch=0.02).eigenvalue is None
+    free = rods.settle(0.15, gravity=0.0, **curl).eigenvalue
+    hanging = rods.settle(0.15, tangent=[0, 0, -1], eigenvalue=True).eigenvalue
+    # Weight stretches straight hair, and leaves its twist alone.
+    assert free is not None and free[0] == pytest.approx(1.0) and hanging is not None and hanging[0] == pytest.approx(1.0)
+    held_out = rods.settle([0.02, 0.05], **curl).eigenvalue
+    assert held_out is not None and 0 < held_out[1] < held_out[0] < 1
+    # No loss meets a rod more softly.
+    rest = rods.settle(**(RODS | KNOTS), **OPTIONS, derivatives=True, eigenvalue=True)
+    assert rest.eigenvalue is not None and (rest.vjp(WEIGHTS).eigenvalue_bound >= rest.eigenvalue * (1 - 1e-9)).all()
+    # Upright, near the load at which it falls over (Greenhill: 7.8373), where the quotient is as the load that is missing.
+    fibre = 3e9 * np.pi * (40e-6) ** 4 / 4 / (1300 * 9.81 * np.pi * (40e-6) ** 2)
+    lengths = (np.array([0.9, 0.95]) * 7.8373 * fibre) ** (1 / 3)
+    upright = {"diameter": 80e-6, "youngs_modulus": 3e9, "shear_modulus": 1e9, "tangent": [0, 0, 1], "elements": 48}
+    found = rods.settle(lengths, **upright, eigenvalue=True).eigenvalue
+    assert found is not None and np.allclose(found, [0.1, 0.05], atol=2e-3)
+
+
 def test_frames_count_too() -> None:
     arguments = RODS | CURL
     rest = rods.settle(**arguments, **OPTIONS, derivatives=True)
@@ -98,14 +151,24 @@ def test_what_cannot_be_differentiated_is_told() -> None:
     with pytest.raises(frisure.ArgumentError, match="derivatives=True"):
         rest.vjp(np.zeros((1, 16, 3)))
     rest = rods.settle(0.1, derivatives=True)
+    with pytest.raises(frisure.ArgumentError, match="there is no loss"):
+        rest.vjp()
+    with pytest.raises(frisure.ArgumentError, match="by_energy has 2 values for 1 rods"):
+        rest.vjp(by_energy=[1.0, 2.0])
+    with pytest.raises(frisure.ArgumentError, match=r"by_energy\[0\] is inf"):
+        rest.vjp(by_energy=np.inf)
     with pytest.raises(frisure.ArgumentError, match="by_points has the shape"):
         rest.vjp(np.zeros((1, 15, 3)))
     with pytest.raises(frisure.ArgumentError, match="by_frames has the shape"):
         rest.vjp(np.zeros((1, 16, 3)), np.zeros((2, 16, 3)))
     bad = np.zeros((1, 16, 3))
     bad[0, 3, 1] = np.nan
-    with pytest.raises(frisure.ArgumentError, match=r"by_points\[0, 3, 1\] is nan"):
-        rest.vjp(bad)
+    for given in (bad, np.asfortranarray(bad), bad.astype(np.float32)):
+        with pytest.raises(frisure.ArgumentError, match=r"by_points\[0, 3, 1\] is nan"):
+            rest.vjp(given)
+    bad[0, 2, 2] = -np.inf
+    with pytest.raises(frisure.ArgumentError, match=r"by_frames\[0, 2, 2\] is -inf"):
+        rest.vjp(None, bad)
     again = pickle.loads(pickle.dumps(rest))
     assert np.array_equal(again.points, rest.points)
     with pytest.raises(frisure.ArgumentError, match="in this process"):
@@ -150,7 +213,9 @@ def test_forward_products_are_differences_and_agree_with_backward_ones(natural: 
     rest = rods.settle(**arguments, **OPTIONS, derivatives=True)
     assert rest.points is not None
     frames = np.random.default_rng(9).normal(size=WEIGHTS.shape)
-    gradient = rest.vjp(WEIGHTS, frames)
+    # An energy in the unit of the other losses.
+    by_energy = 1e8 * np.arange(1.0, 8.0)
+    gradient = rest.vjp(WEIGHTS, frames, by_energy=by_energy)
     everything = changes_of({**arguments, "gravity": 9.81}, 8)
     # One by one and all together: against differences of the solver.
     for names in [*([name] for name in everything), list(everything)]:
@@ -174,9 +239,11 @@ def test_forward_products_are_differences_and_agree_with_backward_ones(natural: 
             size = np.abs(moved.points).max()
             assert np.allclose(moved.points, found, rtol=1e-5, atol=1e-6 * size + 1e-13), names
         # Against the backward products: the derivative of one loss along the change.
-        forward = (moved.points * WEIGHTS).sum(axis=(1, 2)) + (moved.frames * frames).sum(axis=(1, 2))
+        parts = [(moved.points * WEIGHTS).sum(axis=(1, 2)), (moved.frames * frames).sum(axis=(1, 2)), moved.energy * by_energy]
+        forward = parts[0] + parts[1] + parts[2]
         backward = sum((getattr(gradient, name) * by).reshape(7, -1).sum(axis=1) for name, by in change.items())
-        assert np.allclose(forward, backward, rtol=1e-8, atol=1e-10 * np.abs(forward).max() + 1e-15), names
+        size = max(np.abs(part).max() for part in parts)
+        assert np.allclose(forward, backward, rtol=1e-8, atol=1e-10 * size + 1e-15), names
 
 
 def test_what_is_no_argument_has_forward_products_too() -> None:

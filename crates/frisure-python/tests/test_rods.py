@@ -259,7 +259,7 @@ def test_results_are_compared_as_objects_and_can_be_copied() -> None:
     for twin in (copy.copy(rest), copy.deepcopy(rest)):
         assert np.array_equal(twin.vjp(loss).length, by.length)
     assert copy.deepcopy(rest).energy is not rest.energy
-    assert list(dataclasses.asdict(rest)) == ["points", "energy", "stable", "gradient_norm", "iterations", "error"]
+    assert list(dataclasses.asdict(rest)) == ["points", "energy", "stable", "gradient_norm", "iterations", "error", "eigenvalue", "frames"]
     assert np.array_equal(dataclasses.asdict(by)["length"], by.length)
     again = pickle.loads(pickle.dumps(rest))
     assert again != rest and np.array_equal(again.energy, rest.energy)

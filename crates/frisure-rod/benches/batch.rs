@@ -8,7 +8,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use frisure_rod::batch::{Batch, BatchSolution, Precision};
+use frisure_rod::batch::{Batch, BatchLoss, BatchSolution, Precision};
 use frisure_rod::{
     ElementKind, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, equilibrium,
 };
@@ -155,7 +155,7 @@ fn derivatives(hairs: usize) {
         let with = |rods: &[Rod]| {
             let found = exact.solve(rods);
             let loss = &loss[..rods.len() * (exact.elements + 1)];
-            drop(black_box(exact.vjp(rods, &found, loss, &[])));
+            drop(black_box(exact.vjp(rods, &found, BatchLoss::of_positions(loss))));
         };
         let seconds =
             best([&mut || in_chunks(&rods, default), &mut || in_chunks(&rods, exact), &mut || {

@@ -2,7 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "figures, for whoever reads a test's output")]
 
-use frisure_rod::batch::{Batch, Direction};
+use frisure_rod::batch::{Batch, BatchLoss, Direction};
 use frisure_rod::derivatives::{
     DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
@@ -377,7 +377,7 @@ fn near_a_loss_of_stability_the_derivatives_say_so() {
     let batch = Batch { elements: ELEMENTS, tolerance: 1e-10, ..Batch::default() };
     let mut loss = vec![DVec3::ZERO; 2 * (ELEMENTS + 1)];
     (loss[ELEMENTS], loss[2 * ELEMENTS + 1]) = (DVec3::Z, DVec3::Z);
-    let gradient = batch.vjp(&rods, &batch.solve(&rods), &loss, &[]);
+    let gradient = batch.vjp(&rods, &batch.solve(&rods), BatchLoss::of_positions(&loss));
     let found = [0, 1].map(|i| gradient.rods[i].regularity);
     assert_eq!(found, [Ok(Regularity::Regular), Ok(Regularity::IllConditioned)]);
 }
@@ -581,7 +581,14 @@ fn lanes_give_what_one_rod_alone_gives() {
             (0..rods.len() * (ELEMENTS + 1)).map(|_| DVec3::new(one(), one(), one())).collect()
         };
         let (positions, frames) = (vectors(1.0), vectors(0.05));
-        let gradient = batch.vjp(rods, &found, &positions, &frames);
+        // An energy in the unit of the loss: by the moment of a rod.
+        let energies: Vec<f64> =
+            rods.iter().map(|rod| (random.unit() - 0.5) / rod.moment_scale()).collect();
+        let loss = BatchLoss { positions: &positions, frames: &frames, energies: &energies };
+        let gradient = batch.vjp(rods, &found, loss);
+        let shape = batch.vjp(rods, &found, BatchLoss { energies: &[], ..loss });
+        let energy =
+            batch.vjp(rods, &found, BatchLoss { energies: &energies, ..Default::default() });
         let mut regular = 0;
         for (i, rod) in rods.iter().enumerate() {
             let nodes = i * (ELEMENTS + 1)..(i + 1) * (ELEMENTS + 1);
@@ -599,7 +606,9 @@ fn lanes_give_what_one_rod_alone_gives() {
                 continue;
             }
             regular += 1;
-            let (alone, lanes) = (at.vjp(&loss).unwrap(), gradient.of(i));
+            let (of_shape, of_energy) = (at.vjp(&loss).unwrap(), at.by_energy());
+            // A rod that goes to the scalar code has the smallest of all.
+            assert!(tolerance > 1e-10 || energy.rods[i].eigenvalue_bound == 1.0);
             // All in units of the loss: stiffness and load by their sizes, strain by one turn in the length.
             let turn = 1.0 / rod.length();
             let sizes = |by: &ParameterGradient| -> Vec<DVec3> {
@@ -613,15 +622,48 @@ fn lanes_give_what_one_rod_alone_gives() {
                 let strains = by.natural_strain.iter().map(|by| *by * turn);
                 numbers.into_iter().chain(strains).collect()
             };
-            let (alone, lanes) = (sizes(&alone), sizes(&lanes));
-            let largest = alone.iter().map(|v| v.length()).fold(0.0, f64::max);
-            for (k, (a, b)) in alone.iter().zip(&lanes).enumerate() {
-                let (gap, size) = (a.distance(*b), a.length() + 1e-3 * largest);
-                assert!(gap < 1e-7 * size, "{i}, {k}: {a} {b} {}", at.min_eigenvalue());
+            let of_shape = sizes(&of_shape);
+            let of_energy: Vec<DVec3> =
+                sizes(&of_energy).iter().map(|by| *by * energies[i]).collect();
+            let both = of_shape.iter().zip(&of_energy).map(|(a, b)| *a + *b).collect::<Vec<_>>();
+            for (alone, lanes) in [(of_shape, &shape), (of_energy, &energy), (both, &gradient)] {
+                let lanes = sizes(&lanes.of(i));
+                let largest = alone.iter().map(|v| v.length()).fold(0.0, f64::max);
+                for (k, (a, b)) in alone.iter().zip(&lanes).enumerate() {
+                    let (gap, size) = (a.distance(*b), a.length() + 1e-3 * largest);
+                    assert!(gap < 1e-7 * size, "{i}, {k}: {a} {b} {}", at.min_eigenvalue());
+                }
             }
         }
         assert!(regular > rods.len() * 9 / 10, "{regular}");
     }
+}
+
+/// With weight that bends, buckles and stretches, and without any.
+#[test]
+fn nodes_and_smallest_eigenvalues_in_lanes_are_those_of_one_rod_alone() {
+    let rods = of_all_kinds(101, 41);
+    let uniform = |rod: &&Rod| matches!(rod.natural(), NaturalStrain::Uniform(_));
+    let uniform: Vec<Rod> = rods.iter().filter(uniform).cloned().collect();
+    for (rods, elements) in [(&rods, ELEMENTS), (&uniform, ELEMENTS), (&rods, 1), (&rods, 2)] {
+        let batch = Batch { elements, tolerance: 1e-10, ..Batch::default() };
+        let found = batch.solve(rods);
+        let (positions, nodes) = (found.positions(rods), found.nodes(rods));
+        let eigenvalues = found.min_eigenvalues(rods);
+        for (i, rod) in rods.iter().enumerate() {
+            let shape = found.shape(rod, i);
+            for (k, (x, r)) in shape.positions.iter().zip(&shape.frames).enumerate() {
+                let node = i * (elements + 1) + k;
+                assert!(x.distance(positions[node]) < 1e-13 + 1e-12 * rod.length(), "{i} {k}");
+                assert_eq!(positions[node], nodes[node].0);
+                assert!(r.abs_diff_eq(nodes[node].1, 1e-11), "{i} {k}");
+            }
+            let chain = Chain::uniform(rod, ElementKind::Jointed, elements);
+            let alone = Problem::new(&chain, &[]).min_eigenvalue(&shape);
+            assert!((eigenvalues[i] - alone).abs() < 1e-7 * alone.abs() + 1e-9, "{i}: {alone}");
+        }
+    }
+    assert!(Batch::default().solve(&[]).positions(&[]).is_empty());
 }
 
 #[test]
@@ -734,7 +776,8 @@ fn products_in_lanes_agree_forwards_and_backwards() {
     };
     let (positions, frames) = (vectors(1.0), vectors(0.05));
     let moved = batch.jvp(&rods, &found, &directions);
-    let gradient = batch.vjp(&rods, &found, &positions, &frames);
+    let loss = BatchLoss { positions: &positions, frames: &frames, energies: &[] };
+    let gradient = batch.vjp(&rods, &found, loss);
     for (i, rod) in rods.iter().enumerate() {
         let by = gradient.rods[i];
         if by.regularity != Ok(Regularity::Regular) {

@@ -139,22 +139,16 @@ def save_picture(
 class RodsAtRest:
     def vjp(
         self,
-        by_points: NDArray[np.float64],
+        by_points: NDArray[np.float64] | None,
         by_frames: NDArray[np.float64] | None,
         progress: _Progress | None,
-    ) -> tuple[
-        NDArray[np.float64],
-        list[NDArray[np.float64]],
-        NDArray[np.float64],
-        NDArray[np.float64],
-        list[NDArray[np.float64]],
-        list[NDArray[np.bool_]],
-    ]: ...
+        by_energy: NDArray[np.float64] | None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]: ...
     def jvp(
         self,
         changes: Mapping[str, NDArray[np.float64] | None],
         progress: _Progress | None,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]: ...
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]: ...
 
 def after_fork() -> None: ...
 def check_room(things: str, count: int, each: float) -> None: ...
@@ -177,6 +171,8 @@ def settle_rods(
     NDArray[np.uint32],
     NDArray[np.float64] | None,
     RodsAtRest | None,
+    NDArray[np.float64] | None,
+    NDArray[np.float64] | None,
 ]: ...
 def inverse_rods(
     points: NDArray[np.float64],

@@ -56,11 +56,12 @@ class Gradient:
     - `root_rotation` (H, 3), loss per rad: by a rotation of the clamp about the root (world).
     - `half_strain` (H, 2 elements, 3), loss per rad/m: by the natural strain of each half of an element.
     - `eigenvalue_bound` (H,), without unit: the second variation of the whole energy over that of the elastic energy, along the change of
-      shape by which the loss meets the rod; the derivatives are as one over it. It is at least the smallest of all such quotients. That is
-      1 without weight; weight that stretches a rod makes it greater than 1, and where stability is lost it is 0. It is 1 for a loss
-      that asks nothing, and 0 where there are no derivatives.
-    - `regular` (H,) bool: whether the smallest quotient is at least 1e-3 and all derivatives are finite; nearer to a loss of stability
-      derivatives are large and hold for tiny changes only.
+      shape by which the loss meets the rod; the derivatives are as one over it. It is at least the smallest of all such quotients,
+      `Settled.eigenvalue`. Without weight it is 1; weight that stretches the rod along that change makes it greater, and where stability is lost it is 0.
+      It is 1 for a loss that asks nothing of the shape, such as one of the energy alone, and 0 where there are no derivatives.
+    - `regular` (H,) bool: whether the smallest quotient is at least 1e-3 and all derivatives are finite. False means a fold (or another loss of
+      stability) is near, where the shape goes on along one side of the parameter only: there derivatives are large, grow as one over the
+      quotient, and hold for tiny changes, towards the fold for none. Nothing else is one-sided in a single rod, which touches nothing.
     - `exists` (H,) bool: whether the shape is a minimum and has derivatives; where not, they are zero.
 
     Two gradients are equal if they are the same object: compare their arrays.
@@ -100,11 +101,13 @@ class Motion:
 
     - `points` (H, P, 3), m: how far each node moves, per unit of the change.
     - `frames` (H, P, 3), rad: the rotation of the frame of each node (world).
+    - `energy` (H,), J: by how much `Settled.energy` changes.
     - `exists` (H,) bool: whether the shape is a minimum and has derivatives; where not, nothing moves.
     """
 
     points: Float64
     frames: Float64
+    energy: Float64
     exists: NDArray[np.bool_]
 
     def __len__(self) -> int:
@@ -120,8 +123,6 @@ class _Kept:
 
     at_rest: RodsAtRest
     nodes: int
-    tangent: Float64
-    d1: Float64
     curl_radius: Float64
     curl_pitch: Float64
     strains: int
@@ -140,6 +141,10 @@ class Settled:
     - `gradient_norm` (H,): largest derivative of the energy, as a fraction of the moment of the weight.
     - `iterations` (H,) uint32: iterations of the solver.
     - `error` (H,), m: estimated largest error of a node from the division into elements; None without `error=True`.
+    - `eigenvalue` (H,), without unit: the smallest quotient of the second variation of the whole energy over that of the elastic energy, along
+      all changes of shape: 1 without weight, 0 where stability is lost, and negative at a saddle; NaN for a
+      rod that is not at rest. None without `eigenvalue=True`.
+    - `frames` (H, P, 3, 3): the frame at each node, rows d1, d2 and tangent, unit vectors (world); None without `frames=True`.
 
     With `derivatives=True`, `vjp` and `jvp` give the derivatives; copies have them, too, and what is pickled has not. Two results
     are equal if they are the same object: compare their arrays.
@@ -151,6 +156,8 @@ class Settled:
     gradient_norm: Float64
     iterations: NDArray[np.uint32]
     error: Float64 | None
+    eigenvalue: Float64 | None = None
+    frames: Float64 | None = None
 
     def __len__(self) -> int:
         return len(self.energy)
@@ -185,28 +192,38 @@ class Settled:
         return kept
 
     def vjp(
-        self, by_points: ArrayLike, by_frames: ArrayLike | None = None, *, progress: Progress | None = None
+        self,
+        by_points: ArrayLike | None = None,
+        by_frames: ArrayLike | None = None,
+        *,
+        by_energy: ArrayLike | None = None,
+        progress: Progress | None = None,
     ) -> Gradient:
         """The derivatives of a loss by all arguments of `settle`, which was called with `derivatives=True`.
 
         `by_points` are the derivatives of the loss by `points` (loss per m), (H, P, 3); `by_frames` those by rotations of the
-        frames at the nodes (loss per rad, world). They are exact to rounding: by the adjoint of the equilibrium, not by
-        differences.
+        frames at the nodes (loss per rad, world), (H, P, 3); `by_energy` those by `energy` (loss per J), (H,) or one for all. What is left
+        out has no part in the loss. They are exact to rounding: by the adjoint of the equilibrium, not by differences.
+
+        Raises `ArgumentError` without any of the three, for a wrong shape, and for the first number that is not finite.
 
         >>> rest = settle(0.1, curl_radius=0.01, curl_pitch=0.02, derivatives=True)
         >>> height_of_the_tip = np.zeros((1, 16, 3))
         >>> height_of_the_tip[:, -1, 2] = 1
         >>> bool(rest.vjp(height_of_the_tip).density[0] < 0)
         True
+        >>> bool(rest.vjp(by_energy=1.0).gravity[0] < 0)              # the tip is lower than the root
+        True
         """
         kept = self._differentiable()
+        if by_points is None and by_frames is None and by_energy is None:
+            raise ArgumentError("there is no loss: give by_points, by_frames or by_energy")
         shape = (len(self), kept.nodes, 3)
-        loss = _loss("by_points", by_points, shape)
+        points = None if by_points is None else _loss("by_points", by_points, shape)
         frames = None if by_frames is None else _loss("by_frames", by_frames, shape)
-        halves, vectors, material, section, numbers, flags = kept.at_rest.vjp(loss, frames, progress)
-        by_gravity, root, rotation, _ = vectors
-        length, gravity, bound = numbers
-        uniform = np.asarray(halves.sum(axis=1), dtype=np.float64)
+        energy = None if by_energy is None else _change("by_energy", _numbers("by_energy", by_energy), len(self))
+        halves, table, regular, exists = kept.at_rest.vjp(points, frames, energy, progress)
+        by_gravity, root, rotation, uniform, tangent, d1 = (table[:, first : first + 3] for first in range(8, 26, 3))
         strain, by_radius, by_pitch = uniform, None, None
         if kept.strains == 0:
             by_radius, by_pitch = _by_curl(uniform, kept.curl_radius, kept.curl_pitch)
@@ -215,19 +232,19 @@ class Settled:
             strain = np.asarray(np.einsum("hnc,nk->hkc", halves, weights), dtype=np.float64)
         elif kept.knots:
             strain = uniform[:, np.newaxis]
-        tangent, d1 = _by_clamp(rotation, kept.tangent, kept.d1)
         finite = np.ones(len(self), dtype=bool)
-        for array in (length, gravity, material, section, uniform, root, rotation, tangent, d1, by_radius, by_pitch):
+        # The table is looked at where it is made.
+        for array in (by_radius, by_pitch):
             if array is not None:
-                finite &= np.isfinite(array).reshape(len(self), int(array.size / max(len(self), 1))).all(axis=1)
+                finite &= np.isfinite(array)
         return Gradient(
-            length=length,
-            diameter=section[:, 0],
-            axis_ratio=section[:, 1],
-            youngs_modulus=material[:, 0],
-            shear_modulus=material[:, 1],
-            density=material[:, 2],
-            gravity=gravity,
+            length=table[:, 0],
+            diameter=table[:, 1],
+            axis_ratio=table[:, 2],
+            youngs_modulus=table[:, 3],
+            shear_modulus=table[:, 4],
+            density=table[:, 5],
+            gravity=table[:, 6],
             curl_radius=by_radius,
             curl_pitch=by_pitch,
             natural_strain=strain,
@@ -237,9 +254,9 @@ class Settled:
             root_rotation=rotation,
             half_strain=halves,
             gravity_vector=by_gravity,
-            eigenvalue_bound=bound,
-            regular=flags[0] & finite,
-            exists=flags[1],
+            eigenvalue_bound=table[:, 7],
+            regular=regular & finite,
+            exists=exists,
         )
 
     def jvp(
@@ -287,8 +304,6 @@ class Settled:
             changes[name] = None if value is None else _change(name, _numbers(name, value), len(self))
         for name, value in vectors.items():
             changes[name] = None if value is None else _change(name, _vectors(name, value), len(self))
-        turned = _turned(changes.pop("tangent"), changes.pop("d1"), kept.tangent, kept.d1)
-        changes["root_rotation"] = _sum(changes["root_rotation"], turned)
         radius, pitch = changes.pop("curl_radius"), changes.pop("curl_pitch")
         if kept.strains and not (radius is None and pitch is None):
             raise ArgumentError("the rods have a natural_strain, and no curl_radius or curl_pitch to change")
@@ -310,9 +325,7 @@ def _loss(name: str, value: ArrayLike, shape: tuple[int, int, int]) -> Float64:
     array = _array(name, value)
     if array.shape != shape:
         raise ArgumentError(f"{name} has the shape {array.shape}; it must be {shape}, as `points`")
-    if not np.isfinite(array).all():
-        index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        raise ArgumentError(f"{name}{list(index)} is {array[index]}; it must be finite")
+    # Whether the numbers are finite is looked at where they are read.
     return array
 
 
@@ -353,21 +366,6 @@ def _by_halves(kept: _Kept, change: Float64) -> Float64:
     return np.asarray(np.einsum("hkc,nk->hnc", change, weights), dtype=np.float64)
 
 
-def _turned(tangent: Float64 | None, d1: Float64 | None, kept_tangent: Float64, kept_d1: Float64) -> Float64 | None:
-    """The rotation of the clamp (rad, world), (H, 3), by changes of the tangent and of d1: the transpose of `_by_clamp`."""
-    if tangent is None and d1 is None:
-        return None
-    size, t, along, width, e1, e2 = _clamp(kept_tangent, kept_d1)
-
-    def part(vector: Float64, axis: Float64) -> Float64:
-        return np.asarray((vector * axis).sum(axis=1, keepdims=True))
-
-    change = np.zeros((1, 3)) if tangent is None else tangent / size
-    aside = np.zeros((1, 3)) if d1 is None else d1
-    about = part(aside, e2) / width - along / width * part(change, e2)
-    return np.asarray(-part(change, e2) * e1 + part(change, e1) * e2 + about * t, dtype=np.float64)
-
-
 def _by_curl(by_strain: Float64, radius: Float64, pitch: Float64) -> tuple[Float64, Float64]:
     """The derivatives by radius and pitch of a helix, (H,), from those by its strain, (H, 3)."""
     away, twice = _curl_derivatives(radius, pitch)
@@ -399,28 +397,6 @@ def _knot_weights(halves: int, knots: int) -> Float64:
     whole[rows, segment] += t - t**2 / 2
     whole[rows, segment + 1] += t**2 / 2
     return np.asarray(np.diff(whole, axis=0) * halves / (knots - 1), dtype=np.float64)
-
-
-def _by_clamp(by_rotation: Float64, tangent: Float64, d1: Float64) -> tuple[Float64, Float64]:
-    """The derivatives by the tangent and by d1, (H, 3), from those by a rotation of the frame that they make."""
-    size, t, along, width, e1, e2 = _clamp(tangent, d1)
-    about = [(by_rotation * axis).sum(axis=1, keepdims=True) for axis in (e1, e2, t)]
-    # The tangent turns the frame about e1 and e2; d1, and the tangent by what of it d1 has, about the tangent.
-    by_tangent = (-about[0] * e2 + about[1] * e1 - about[2] * along / width * e2) / size
-    return by_tangent, np.broadcast_to(about[2] / width * e2, by_tangent.shape).copy()
-
-
-def _clamp(
-    tangent: Float64, d1: Float64
-) -> tuple[Float64, Float64, Float64, Float64, Float64, Float64]:
-    """Length and direction of the tangent, the parts of d1 along it and across, and the frame's axes d1 and d2; a row for each rod."""
-    size = np.asarray(np.linalg.norm(tangent, axis=1, keepdims=True), dtype=np.float64)
-    t = tangent / size
-    along = np.asarray((d1 * t).sum(axis=1, keepdims=True), dtype=np.float64)
-    side = d1 - along * t
-    width = np.asarray(np.linalg.norm(side, axis=1, keepdims=True), dtype=np.float64)
-    e1 = side / width
-    return size, t, along, width, e1, np.cross(t, e1)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -528,6 +504,8 @@ def settle(
     precision: Literal["double", "single"] = "double",
     points: bool = True,
     error: bool = False,
+    eigenvalue: bool = False,
+    frames: bool = False,
     derivatives: bool = False,
     progress: Progress | None = None,
 ) -> Settled:
@@ -547,7 +525,8 @@ def settle(
     - `elements` of each rod: 3.5 per turn of a curl keep the whole rod within some tenths of a millimetre.
     - `tolerance`: the `gradient_norm` at which a rod is at rest. `precision="single"` iterates in single precision first,
       to the same result within the tolerance.
-    - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements.
+    - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements; `frames=True` adds the frames there.
+    - `eigenvalue=True` adds the smallest eigenvalue of each rod; this takes three to four times as long as the rest.
     - `derivatives=True` keeps the rods for `Settled.vjp` and `Settled.jvp`, and brings them to rest to 1e-10 at least.
 
     Lengths may be 1 um to 100 m, diameters 10 nm to 10 cm, moduli 1 kPa to 10 TPa, gravity up to 10 000 m/s².
@@ -567,16 +546,18 @@ def settle(
         "single": precision == "single",
         "points": bool(points),
         "error": bool(error),
+        "eigenvalue": bool(eigenvalue),
+        "frames": bool(frames),
         "derivatives": bool(derivatives),
     }
     arrays = settle_rods(count, fibres, clamped, options, progress)
     settled, rods = Settled(*arrays[:-1]), arrays[-1]
     if rods is not None:
         # Copies: the caller may change the arguments before it asks for derivatives.
-        tangents, d1s, radii, pitches = (clamped[name].copy() for name in ("tangent", "d1", "curl_radius", "curl_pitch"))
+        radii, pitches = (clamped[name].copy() for name in ("curl_radius", "curl_pitch"))
         strains = 0 if natural_strain is None else clamped["natural_strain"].shape[1]
         knots = natural_strain is not None and np.ndim(natural_strain) == 3
-        settled.__dict__["_kept"] = _Kept(rods, elements + 1, tangents, d1s, radii, pitches, strains, knots)
+        settled.__dict__["_kept"] = _Kept(rods, elements + 1, radii, pitches, strains, knots)
     return settled
 
 

@@ -1,5 +1,8 @@
 //! Rods from arrays of their properties, which are read where they are.
 
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use frisure::rod::{
     InvalidQuantity, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, StrainProfile,
     TorsionConstant,
@@ -9,8 +12,9 @@ use glam::DVec3;
 use numpy::ndarray::{ArrayView1, ArrayView2, ArrayView3, Axis};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
-use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IntoParallelIterator, ParallelExtend, ParallelIterator};
 
+use super::clamp::Clamps;
 use super::limits::{self, Limits};
 use crate::errors::raise;
 use crate::{room, work};
@@ -204,31 +208,28 @@ impl FibreViews<'_> {
 }
 
 impl<'a> ClampViews<'a> {
-    /// Rods one block after the other, which `keep` takes, as many as `count`. Other threads of Python run meanwhile.
+    /// Goes over the rods from 0 to `count`, one block after the other, on all threads. Other threads of Python run meanwhile.
     ///
     /// # Errors
     /// About the first rod that cannot be made, and what a signal such as Ctrl-C raises.
     fn each_block(
-        &self,
         py: Python<'_>,
-        fibres: &FibreViews<'a>,
         count: usize,
-        mut keep: impl FnMut(Vec<Rod>),
+        mut make: impl FnMut(Range<usize>) -> Result<(), WrongRod> + Send,
     ) -> PyResult<()> {
         work::begin(py)?;
         for first in (0..count).step_by(BLOCK) {
             py.check_signals()?;
-            let block = first..count.min(first + BLOCK);
-            let made: Vec<Result<Rod, WrongRod>> = py.detach(|| {
-                let mut made = Vec::with_capacity(block.len());
-                block.into_par_iter().map(|rod| self.rod(fibres, rod)).collect_into_vec(&mut made);
-                made
-            });
-            // Of several errors that of the first rod is raised, whichever was met first.
-            let rods = made.into_iter().collect::<Result<Vec<Rod>, WrongRod>>();
-            keep(rods.map_err(|e| raise(py, &e.into()))?);
+            let made = py.detach(|| make(first..count.min(first + BLOCK)));
+            made.map_err(|e| raise(py, &e.into()))?;
         }
         Ok(())
+    }
+
+    /// The tangents and the d1, in memory of their own.
+    pub(crate) fn clamps(&self) -> Clamps {
+        let rows = |of: &Vectors<'_>| (0..of.1.nrows()).map(|row| of.at(row)).collect();
+        Clamps { tangent: rows(&self.tangent), d1: rows(&self.d1) }
     }
 
     /// The rods, as many as `count`, which need `each` bytes each with all that is computed of them.
@@ -244,8 +245,24 @@ impl<'a> ClampViews<'a> {
     ) -> PyResult<Vec<Rod>> {
         let each = each + size_of::<Rod>() + self.knots_size();
         let list = room::check("rods", count, each as f64).and_then(|()| room::list("rods", count));
-        let mut rods = list.map_err(|e| raise(py, &e))?;
-        self.each_block(py, fibres, count, |block| rods.extend(block))?;
+        let mut rods: Vec<Rod> = list.map_err(|e| raise(py, &e))?;
+        Self::each_block(py, count, |block| {
+            // Each is made where it stays: a first one stands in for those that cannot be made.
+            let any = self.rod(fibres, block.start)?;
+            let wrong = AtomicUsize::new(usize::MAX);
+            let made = block.into_par_iter().map(|rod| {
+                self.rod(fibres, rod).unwrap_or_else(|_| {
+                    wrong.fetch_min(rod, Ordering::Relaxed);
+                    any.clone()
+                })
+            });
+            rods.par_extend(made);
+            // Of several errors that of the first rod is raised, whichever was met first.
+            match wrong.into_inner() {
+                usize::MAX => Ok(()),
+                rod => self.rod(fibres, rod).map(drop),
+            }
+        })?;
         Ok(rods)
     }
 
@@ -259,7 +276,10 @@ impl<'a> ClampViews<'a> {
         fibres: &FibreViews<'a>,
         count: usize,
     ) -> PyResult<()> {
-        self.each_block(py, fibres, count, drop)
+        Self::each_block(py, count, |block| {
+            let wrong = block.into_par_iter().map(|rod| self.rod(fibres, rod));
+            wrong.find_map_first(Result::err).map_or(Ok(()), Err)
+        })
     }
 
     /// Memory of the knots of a rod (bytes).

@@ -1,58 +1,79 @@
 //! The derivatives of a loss by the properties of many rods at rest, and how the rods move along changes of them.
 
+use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure::progress::{Cancelled, Progress, StageCounter};
 use frisure::rod::Rod;
-use frisure::rod::batch::{Batch, BatchGradient, BatchSolution, RodGradient};
+use frisure::rod::batch::{Batch, BatchLoss, BatchSolution, RodGradient};
 use frisure::rod::derivatives::{ParameterGradient, Regularity};
 use frisure_engine::Error;
 use glam::DVec3;
-use numpy::ndarray::{ArrayView3, Axis};
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray3};
+use numpy::ndarray::ArrayView3;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rayon::iter::{IndexedParallelIterator, ParallelIterator};
-use rayon::slice::ParallelSlice;
+use rayon::iter::{
+    IndexedParallelIterator, IntoParallelIterator, ParallelExtend, ParallelIterator,
+};
+use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
+use super::clamp::{Clamp, Clamps};
 use super::kept::{Kept, mass_per_length};
 use super::motion::{self, Changes};
-use crate::errors::raise;
+use crate::errors::{argument, raise};
 use crate::{room, work};
 
 /// Vectors that are copied between two looks at signals.
-const BLOCK: usize = 1 << 18;
+const BLOCK: usize = 1 << 20;
+
+/// Numbers of a rod in the table of derivatives: by length, diameter, axis ratio, Young's and shear modulus, density and gravity; the bound of
+/// the smallest eigenvalue; by gravity as a vector, root, rotation of the root, a natural strain that is the same all along, tangent and d1.
+const COLUMNS: usize = 26;
 
 /// Rods at rest, kept for their derivatives.
 #[pyclass(frozen, module = "frisure._frisure")]
 pub(crate) struct RodsAtRest(Arc<Kept>);
 
-/// The derivatives of H rods of N elements as arrays: by the natural strain of each half of an element (H, 2 N, 3); by gravity as a
-/// vector, root, rotation of the root, stiffness (H, 3); by moduli and density (H, 3): Young's, shear, density; by section (H, 2):
-/// diameter, axis ratio; by length, by gravity, bound of the smallest eigenvalue (H,); whether they are regular (H,), and
-/// whether there are any (H,).
+/// The derivatives of H rods of N elements as arrays: by the natural strain of each half of an element (H, 2 N, 3); the table (H, 26) of the
+/// others, see [`COLUMNS`]; whether they are regular (H,), and whether there are any (H,).
 type Arrays<'py> = (
     Bound<'py, PyArray3<f64>>,
-    [Bound<'py, PyArray2<f64>>; 4],
     Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    [Bound<'py, PyArray1<f64>>; 3],
-    [Bound<'py, PyArray1<bool>>; 2],
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<bool>>,
 );
 
-/// How nodes and their frames move (H, P, 3), and whether there are derivatives (H,).
-type Motions<'py> =
-    (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>, Bound<'py, PyArray1<bool>>);
+/// How nodes and their frames move (H, P, 3), by how much the energy changes, and whether there are derivatives (H,).
+type Motions<'py> = (
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<bool>>,
+);
 
-/// The same numbers in lists.
-#[derive(Default)]
+/// The derivatives of a loss by the nodes, their frames and the energies of all rods; empty for none, and the energies may be one for all.
+struct Loss {
+    points: Vec<DVec3>,
+    frames: Vec<DVec3>,
+    energies: Vec<f64>,
+}
+
+/// The derivatives as numbers, one rod after the other.
 struct Lists {
     halves: Vec<f64>,
-    vectors: [Vec<f64>; 4],
-    material: Vec<f64>,
-    section: Vec<f64>,
-    numbers: [Vec<f64>; 3],
-    flags: [Vec<bool>; 2],
+    table: Vec<f64>,
+    regular: Vec<bool>,
+    exists: Vec<bool>,
+}
+
+/// Where the derivatives of a chunk of rods go.
+struct ChunkOfLists<'a> {
+    halves: &'a mut [f64],
+    table: &'a mut [f64],
+    regular: &'a mut [bool],
+    exists: &'a mut [bool],
 }
 
 impl RodsAtRest {
@@ -62,44 +83,44 @@ impl RodsAtRest {
         elements: usize,
         chunk: usize,
         found: Vec<BatchSolution>,
+        clamps: Clamps,
     ) -> Self {
-        Self(Arc::new(Kept { rods, elements, chunk, found }))
+        Self(Arc::new(Kept { rods, elements, chunk, found, clamps }))
     }
 }
 
 #[pymethods]
 impl RodsAtRest {
-    /// The derivatives of a loss by all properties, from those by the nodes, (H, P, 3).
-    #[pyo3(signature = (by_points, by_frames, progress))]
+    /// The derivatives of a loss by all properties, from those by the nodes and by their frames, (H, P, 3), and by the energies, (H,) or (1,).
+    #[pyo3(signature = (by_points, by_frames, by_energy, progress))]
     fn vjp<'py>(
         &self,
         py: Python<'py>,
-        by_points: PyReadonlyArray3<'py, f64>,
+        by_points: Option<PyReadonlyArray3<'py, f64>>,
         by_frames: Option<PyReadonlyArray3<'py, f64>>,
+        by_energy: Option<PyReadonlyArray1<'py, f64>>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Arrays<'py>> {
         let kept = Arc::clone(&self.0);
         let (count, elements) = (kept.rods.len(), kept.elements);
         let shape = [count, elements + 1];
-        let given = 1 + usize::from(by_frames.is_some());
+        let given = usize::from(by_points.is_some()) + usize::from(by_frames.is_some());
         room::check("rods", count, kept.gradient_size(given) as f64).map_err(|e| raise(py, &e))?;
-        let by_points = vectors(py, by_points.as_array(), shape)?;
-        let by_frames = by_frames.as_ref().map(|by| vectors(py, by.as_array(), shape));
-        let by_frames = by_frames.transpose()?.unwrap_or_default();
-        let lists = work::run(py, progress, move |p| {
-            Ok(kept.lists(&kept.gradients(&by_points, &by_frames, p)?))
-        })?;
-        let number = |values| PyArray1::from_vec(py, values);
-        let table =
-            |values: Vec<f64>, columns| PyArray1::from_vec(py, values).reshape([count, columns]);
-        let Lists { halves, vectors: [gravity, root, rotation, stiffness], .. } = lists;
+        let read = |name, by: &Option<PyReadonlyArray3<'py, f64>>| match by {
+            Some(by) => vectors(py, name, by.as_array(), shape),
+            None => Ok(Vec::new()),
+        };
+        let loss = Loss {
+            points: read("by_points", &by_points)?,
+            frames: read("by_frames", &by_frames)?,
+            energies: by_energy.map(|by| by.as_array().to_vec()).unwrap_or_default(),
+        };
+        let lists = work::run(py, progress, move |p| kept.gradients(&loss, p))?;
         Ok((
-            PyArray1::from_vec(py, halves).reshape([count, 2 * elements, 3])?,
-            [table(gravity, 3)?, table(root, 3)?, table(rotation, 3)?, table(stiffness, 3)?],
-            table(lists.material, 3)?,
-            table(lists.section, 2)?,
-            lists.numbers.map(number),
-            lists.flags.map(|flags| PyArray1::from_vec(py, flags)),
+            PyArray1::from_vec(py, lists.halves).reshape([count, 2 * elements, 3])?,
+            PyArray1::from_vec(py, lists.table).reshape([count, COLUMNS])?,
+            PyArray1::from_vec(py, lists.regular),
+            PyArray1::from_vec(py, lists.exists),
         ))
     }
 
@@ -121,6 +142,7 @@ impl RodsAtRest {
         Ok((
             PyArray1::from_vec(py, moved.points).reshape(shape)?,
             PyArray1::from_vec(py, moved.frames).reshape(shape)?,
+            PyArray1::from_vec(py, moved.energy),
             PyArray1::from_vec(py, moved.exists),
         ))
     }
@@ -130,80 +152,143 @@ impl Kept {
     /// Memory of the derivatives of a rod from so many arrays by its nodes (bytes).
     fn gradient_size(&self, given: usize) -> usize {
         let vector = size_of::<DVec3>();
-        // By the halves of elements twice, as they are computed and in an array; the other arrays have 21 numbers of a rod.
         given * vector * (self.elements + 1)
-            + 2 * vector * 2 * self.elements
-            + size_of::<RodGradient>()
-            + 21 * size_of::<f64>()
+            + vector * 2 * self.elements
+            + COLUMNS * size_of::<f64>()
+            + 2 * size_of::<bool>()
     }
 
-    fn gradients(
-        &self,
-        by_points: &[DVec3],
-        by_frames: &[DVec3],
-        progress: &dyn Progress,
-    ) -> Result<Vec<BatchGradient>, Error> {
+    fn gradients(&self, loss: &Loss, progress: &dyn Progress) -> Result<Lists, Error> {
         let stage = StageCounter::new(progress, "derivatives", self.found.len());
-        let nodes = self.chunk * (self.elements + 1);
-        let chunks = self.rods.par_chunks(self.chunk).zip(&self.found).enumerate();
-        let gradients = chunks.map(|(i, (rods, found))| {
+        let mut lists = Lists::new(self.rods.len(), self.elements);
+        let chunks = self.rods.par_chunks(self.chunk).zip(&self.found);
+        let chunks = chunks.zip(lists.chunks(self.chunk, self.elements)).enumerate();
+        chunks.try_for_each(|(i, ((rods, found), lists))| {
             stage.check()?;
-            let part = |by: &'_ [DVec3]| -> std::ops::Range<usize> {
-                (i * nodes).min(by.len())..((i + 1) * nodes).min(by.len())
-            };
-            let (points, frames) = (&by_points[part(by_points)], &by_frames[part(by_frames)]);
-            let gradient = Batch::default().vjp(rods, found, points, frames);
+            let first = i * self.chunk;
+            self.gradients_of(first..first + rods.len(), found, loss, lists);
             stage.advance();
-            Ok::<_, Cancelled>(gradient)
-        });
-        Ok(gradients.collect::<Result<Vec<_>, _>>()?)
+            Ok::<_, Cancelled>(())
+        })?;
+        Ok(lists)
     }
 
-    fn lists(&self, gradients: &[BatchGradient]) -> Lists {
-        let mut lists = Lists::default();
-        let halves = gradients.iter().flat_map(|gradient| &gradient.natural_strain).flatten();
-        lists.halves.extend(halves.flat_map(DVec3::to_array));
-        let by_rods = gradients.iter().flat_map(|gradient| &gradient.rods);
-        for (rod, by) in self.rods.iter().zip(by_rods) {
-            lists.push(rod, by);
+    /// The derivatives of some of the rods, which were solved together.
+    fn gradients_of(
+        &self,
+        place: Range<usize>,
+        found: &BatchSolution,
+        loss: &Loss,
+        lists: ChunkOfLists<'_>,
+    ) {
+        let rods = &self.rods[place.clone()];
+        let nodes = self.elements + 1;
+        let part = |by: &'_ [DVec3]| match by.is_empty() {
+            true => 0..0,
+            false => place.start * nodes..place.end * nodes,
+        };
+        let energies = match loss.energies.as_slice() {
+            [same] => vec![*same; rods.len()],
+            [] => Vec::new(),
+            each => each[place.clone()].to_vec(),
+        };
+        let of = BatchLoss {
+            positions: &loss.points[part(&loss.points)],
+            frames: &loss.frames[part(&loss.frames)],
+            energies: &energies,
+        };
+        let gradient = Batch::default().vjp(rods, found, of);
+        let halves = gradient.natural_strain.iter().flatten();
+        for (place, by) in lists.halves.chunks_exact_mut(3).zip(halves) {
+            place.copy_from_slice(&by.to_array());
         }
-        lists
+        let strains = gradient.natural_strain.chunks_exact(self.elements);
+        let rows = lists.table.chunks_exact_mut(COLUMNS).zip(strains);
+        let flags = lists.regular.iter_mut().zip(lists.exists);
+        for (i, (((rod, by), (row, strain)), (regular, exists))) in
+            rods.iter().zip(&gradient.rods).zip(rows).zip(flags).enumerate()
+        {
+            let numbers = numbers(rod, by, strain, &self.clamps.of(place.start + i));
+            row.copy_from_slice(&numbers);
+            let finite = numbers.iter().all(|number| number.is_finite());
+            *regular = finite && by.regularity == Ok(Regularity::Regular);
+            *exists = by.regularity.is_ok();
+        }
     }
 }
 
 impl Lists {
-    /// Appends the derivatives by all of a rod but its natural strain.
-    fn push(&mut self, rod: &Rod, by: &RodGradient) {
-        // Without natural strain, which the properties of material and section do not need.
-        let all = ParameterGradient {
-            natural_strain: Vec::new(),
-            length: Some(by.length),
-            stiffness: by.stiffness,
-            load: by.load,
-            root_position: by.root_position,
-            root_rotation: by.root_rotation,
-        };
-        // Weight per length is ρ S g.
-        let mass = mass_per_length(rod);
-        let vectors = [by.load * mass, by.root_position, by.root_rotation, by.stiffness];
-        for (list, vector) in self.vectors.iter_mut().zip(vectors) {
-            list.extend(vector.to_array());
+    /// Room for so many rods.
+    fn new(rods: usize, elements: usize) -> Self {
+        // Zeros that the system gives where they are first written: on the thread that computes them.
+        Self {
+            halves: vec![0.0; rods * 6 * elements],
+            table: vec![0.0; rods * COLUMNS],
+            regular: vec![false; rods],
+            exists: vec![false; rods],
         }
-        let [density, youngs_modulus, shear_modulus] = all.material(rod);
-        self.material.extend([youngs_modulus, shear_modulus, density]);
-        self.section.extend(all.diameter(rod));
-        let numbers = [by.length, all.weight(rod) * mass, by.eigenvalue_bound];
-        for (list, number) in self.numbers.iter_mut().zip(numbers) {
-            list.push(number);
-        }
-        self.flags[0].push(by.regularity == Ok(Regularity::Regular));
-        self.flags[1].push(by.regularity.is_ok());
+    }
+
+    /// The numbers by chunks of as many rods.
+    fn chunks(
+        &mut self,
+        chunk: usize,
+        elements: usize,
+    ) -> impl IndexedParallelIterator<Item = ChunkOfLists<'_>> {
+        let halves = self.halves.par_chunks_mut(chunk * 6 * elements);
+        let numbers = halves.zip(self.table.par_chunks_mut(chunk * COLUMNS));
+        let flags = self.regular.par_chunks_mut(chunk).zip(self.exists.par_chunks_mut(chunk));
+        numbers.zip(flags).map(|((halves, table), (regular, exists))| ChunkOfLists {
+            halves,
+            table,
+            regular,
+            exists,
+        })
     }
 }
 
-/// The rows of an array of vectors.
+/// The row of a rod, see [`COLUMNS`].
+fn numbers(rod: &Rod, by: &RodGradient, strain: &[[DVec3; 2]], clamp: &Clamp) -> [f64; COLUMNS] {
+    // Without natural strain, which the properties of material and section do not need.
+    let all = ParameterGradient {
+        natural_strain: Vec::new(),
+        length: Some(by.length),
+        stiffness: by.stiffness,
+        load: by.load,
+        root_position: by.root_position,
+        root_rotation: by.root_rotation,
+    };
+    // Weight per length is ρ S g.
+    let mass = mass_per_length(rod);
+    let [density, youngs_modulus, shear_modulus] = all.material(rod);
+    let [diameter, axis_ratio] = all.diameter(rod);
+    let uniform = strain.iter().flatten().sum();
+    let [tangent, d1] = clamp.by_vectors(by.root_rotation);
+    let vectors = [by.load * mass, by.root_position, by.root_rotation, uniform, tangent, d1];
+    let mut row = [0.0; COLUMNS];
+    row[..8].copy_from_slice(&[
+        by.length,
+        diameter,
+        axis_ratio,
+        youngs_modulus,
+        shear_modulus,
+        density,
+        all.weight(rod) * mass,
+        by.eigenvalue_bound,
+    ]);
+    for (place, vector) in row[8..].chunks_exact_mut(3).zip(vectors) {
+        place.copy_from_slice(&vector.to_array());
+    }
+    row
+}
+
+/// The rows of an array of vectors, copied on all threads.
+///
+/// # Errors
+/// `ValueError` for another shape, and `ArgumentError` about the first number that is not finite.
 fn vectors(
     py: Python<'_>,
+    name: &str,
     view: ArrayView3<'_, f64>,
     [count, nodes]: [usize; 2],
 ) -> PyResult<Vec<DVec3>> {
@@ -212,12 +297,34 @@ fn vectors(
         let message = format!("the shape is {shape:?}; it must be [{count}, {nodes}, 3]");
         return Err(PyValueError::new_err(message));
     }
-    let list = room::list("vectors", count * nodes);
+    let total = count * nodes;
+    let list = room::list("vectors", total);
     let mut vectors: Vec<DVec3> = list.map_err(|e| raise(py, &e))?;
-    for block in view.axis_chunks_iter(Axis(0), (BLOCK / nodes).max(1)) {
+    work::begin(py)?;
+    let wrong = AtomicUsize::new(usize::MAX);
+    let flat = view.as_slice();
+    let vector = |i: usize| {
+        let vector = match flat {
+            Some(numbers) => DVec3::from_slice(&numbers[3 * i..]),
+            None => DVec3::from_array([0, 1, 2].map(|k| view[[i / nodes, i % nodes, k]])),
+        };
+        if !vector.is_finite() {
+            wrong.fetch_min(i, Ordering::Relaxed);
+        }
+        vector
+    };
+    for first in (0..total).step_by(BLOCK) {
         py.check_signals()?;
-        let rows = block.rows().into_iter();
-        vectors.extend(rows.map(|row| DVec3::new(row[0], row[1], row[2])));
+        let block = first..total.min(first + BLOCK);
+        py.detach(|| vectors.par_extend(block.into_par_iter().with_min_len(4096).map(vector)));
+        let wrong = wrong.load(Ordering::Relaxed);
+        if let Some(vector) = vectors.get(wrong) {
+            let k = (0..3).find(|&k| !vector[k].is_finite()).unwrap_or_default();
+            let number = if vector[k].is_nan() { "nan".into() } else { vector[k].to_string() };
+            let (row, node) = (wrong / nodes, wrong % nodes);
+            let problem = format!("{name}[{row}, {node}, {k}] is {number}; it must be finite");
+            return Err(argument(py, &problem));
+        }
     }
     Ok(vectors)
 }

@@ -3,6 +3,8 @@
 use frisure::rod::Rod;
 use frisure::rod::batch::BatchSolution;
 
+use super::clamp::Clamps;
+
 /// Rods and their equilibria.
 pub(super) struct Kept {
     pub(super) rods: Vec<Rod>,
@@ -10,6 +12,7 @@ pub(super) struct Kept {
     /// Rods of each solution but the last.
     pub(super) chunk: usize,
     pub(super) found: Vec<BatchSolution>,
+    pub(super) clamps: Clamps,
 }
 
 /// Mass per length of a rod (kg/m).

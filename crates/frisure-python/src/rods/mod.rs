@@ -1,5 +1,6 @@
 //! Many single rods at once, as arrays; `python/frisure/rods.py` has the shapes and units.
 
+mod clamp;
 mod fibres;
 mod gradient;
 mod inverse;

@@ -1,7 +1,7 @@
 //! How many rods at rest move along changes of their properties.
 
 use frisure::progress::{Cancelled, Progress, StageCounter};
-use frisure::rod::batch::{Batch, BatchSolution, Direction, NodeMotion};
+use frisure::rod::batch::{Batch, BatchGradient, BatchLoss, BatchSolution, Direction, NodeMotion};
 use frisure::rod::derivatives::{ParameterChange, Sensitivity};
 use frisure::rod::minimise::Problem;
 use frisure::rod::{Chain, ElementKind, Rod};
@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
+use super::clamp::Clamps;
 use super::kept::{Kept, mass_per_length};
 
 /// Changes of rods in SI units: each has one row for all rods, or one for each; none where nothing changes.
@@ -27,6 +28,8 @@ pub(crate) struct Changes<'py> {
     gravity: Option<PyReadonlyArray1<'py, f64>>,
     gravity_vector: Option<PyReadonlyArray2<'py, f64>>,
     root: Option<PyReadonlyArray2<'py, f64>>,
+    tangent: Option<PyReadonlyArray2<'py, f64>>,
+    d1: Option<PyReadonlyArray2<'py, f64>>,
     root_rotation: Option<PyReadonlyArray2<'py, f64>>,
     /// Of the natural strain: one all along, or one for each half of an element.
     strain: Option<PyReadonlyArray3<'py, f64>>,
@@ -43,6 +46,8 @@ pub(super) struct OwnedChanges {
     gravity: Numbers,
     gravity_vector: Vectors,
     root: Vectors,
+    tangent: Vectors,
+    d1: Vectors,
     root_rotation: Vectors,
     strain: Vectors,
     /// Strains in a row.
@@ -61,6 +66,8 @@ pub(super) struct Moved {
     pub(super) points: Vec<f64>,
     /// Rotations of their frames (rad, world).
     pub(super) frames: Vec<f64>,
+    /// Changes of the energy (J).
+    pub(super) energy: Vec<f64>,
     /// Whether each rod has derivatives.
     pub(super) exists: Vec<bool>,
 }
@@ -116,6 +123,8 @@ impl Changes<'_> {
             gravity: Numbers::new(self.gravity.as_ref()),
             gravity_vector: Vectors::table(self.gravity_vector.as_ref()),
             root: Vectors::table(self.root.as_ref()),
+            tangent: Vectors::table(self.tangent.as_ref()),
+            d1: Vectors::table(self.d1.as_ref()),
             root_rotation: Vectors::table(self.root_rotation.as_ref()),
             strain: Vectors::new(strain.iter().flat_map(|array| array.iter().copied())),
             strains: strain.map_or(0, |array| array.dim().1),
@@ -125,7 +134,8 @@ impl Changes<'_> {
 
 impl OwnedChanges {
     /// The change of a rod as a direction of the solver in lanes, in parts of what the rod has.
-    fn direction(&self, rod: &Rod, index: usize) -> Direction {
+    fn direction(&self, rod: &Rod, clamps: &Clamps, index: usize) -> Direction {
+        let turned = clamps.of(index).rotation(self.tangent.one(index), self.d1.one(index));
         let spec = rod.spec();
         let (section, material) = (&spec.section, &spec.material);
         let axis_ratio = section.a() / section.b();
@@ -149,7 +159,7 @@ impl OwnedChanges {
             ),
             weight: heavier + 2.0 * wider + stronger,
             length: self.length.at(index) / rod.length(),
-            root_rotation: self.root_rotation.one(index),
+            root_rotation: self.root_rotation.one(index) + turned,
         }
     }
 
@@ -176,30 +186,60 @@ pub(super) fn of(
     let moved = chunks.map(|(chunk, (rods, found))| {
         stage.check()?;
         let first = chunk * kept.chunk;
-        let moved = |i: usize| one(&rods[i], found, i, changes, first + i);
-        let moved: Vec<Option<Vec<NodeMotion>>> = (0..rods.len()).map(moved).collect();
+        // At rest the shape does not count: the energy changes as its own derivatives say.
+        let ones = vec![1.0; rods.len()];
+        let loss = BatchLoss { energies: &ones, ..BatchLoss::default() };
+        let energies = Batch::default().vjp(rods, found, loss);
+        let moved = |i: usize| {
+            let direction = changes.direction(&rods[i], &kept.clamps, first + i);
+            let motions = one(&rods[i], found, i, changes, (first + i, &direction))?;
+            let load = changes.load(&rods[i], first + i);
+            Some((motions, energy(&rods[i], &energies, i, &direction, load)))
+        };
+        let moved: Vec<Option<(Vec<NodeMotion>, f64)>> = (0..rods.len()).map(moved).collect();
         stage.advance();
         Ok::<_, Cancelled>(moved)
     });
     let moved: Vec<_> = moved.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     let exists = moved.iter().map(Option::is_some).collect();
     let still = vec![NodeMotion::default(); nodes];
-    let motions = moved.iter().flat_map(|moved| moved.as_ref().unwrap_or(&still));
+    let energy = moved.iter().map(|moved| moved.as_ref().map_or(0.0, |(_, energy)| *energy));
+    let energy = energy.collect();
+    let motions =
+        moved.iter().flat_map(|moved| moved.as_ref().map_or(&still, |(motions, _)| motions));
     let (mut points, mut frames) = (Vec::new(), Vec::new());
     for motion in motions {
         points.extend(motion.shift.to_array());
         frames.extend(motion.rotation.to_array());
     }
-    Ok(Moved { points, frames, exists })
+    Ok(Moved { points, frames, energy, exists })
 }
 
-/// How the nodes of a rod move; none without derivatives. `place` is its index in the solution, `index` that of all rods.
+/// By how much the energy of a rod changes (J) along a direction and a change of its load (N/m), from its derivatives; `place` as in [`one`].
+fn energy(rod: &Rod, by: &BatchGradient, place: usize, direction: &Direction, load: DVec3) -> f64 {
+    let load = rod.load() * direction.weight + load;
+    let n = by.elements;
+    let halves = by.natural_strain[place * n..(place + 1) * n].iter().flatten();
+    let by = &by.rods[place];
+    let strain: f64 = match direction.natural_strain.as_slice() {
+        [same] => halves.map(|half| half.dot(*same)).sum(),
+        each => halves.zip(each).map(|(half, change)| half.dot(*change)).sum(),
+    };
+    strain
+        + by.stiffness.dot(direction.stiffness * rod.stiffness())
+        + by.load.dot(load)
+        + by.length * direction.length * rod.length()
+        + by.root_rotation.dot(direction.root_rotation)
+}
+
+/// How the nodes of a rod move; none without derivatives. `place` is its index in the solution, `index` that of all rods, and `direction` the change
+/// that is one for the solver in lanes.
 fn one(
     rod: &Rod,
     found: &BatchSolution,
     place: usize,
     changes: &OwnedChanges,
-    index: usize,
+    (index, direction): (usize, &Direction),
 ) -> Option<Vec<NodeMotion>> {
     let n = found.elements;
     // The directions of a call are those of all its rods, and here each rod has its own.
@@ -208,8 +248,8 @@ fn one(
         controls: found.controls[place * n..(place + 1) * n].to_vec(),
         rods: vec![found.rods[place]],
     };
-    let direction = changes.direction(rod, index);
-    let tangents = Batch::default().jvp(std::slice::from_ref(rod), &alone, &[direction]);
+    let directions = std::slice::from_ref(direction);
+    let tangents = Batch::default().jvp(std::slice::from_ref(rod), &alone, directions);
     tangents.existence[0].ok()?;
     let mut motions = tangents.motions(0, 0).to_vec();
     let shift = changes.root.one(index);

@@ -4,7 +4,8 @@ use frisure::progress::{Cancelled, Progress, StageCounter};
 use frisure::rod::batch::{Batch, BatchSolution, Precision, RodSolution};
 use frisure::rod::{Rod, Stability};
 use frisure_engine::Error;
-use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use glam::DVec3;
+use numpy::{PyArray1, PyArray3, PyArray4, PyArrayMethods};
 use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use rayon::slice::{ParallelSlice, ParallelSliceMut};
@@ -32,14 +33,20 @@ pub(crate) struct Options {
     points: bool,
     /// Whether the error of the nodes is estimated, for which the rods are solved with half as many elements, too.
     error: bool,
+    /// Whether the frames of the nodes are wanted.
+    frames: bool,
+    /// Whether the smallest eigenvalues are wanted.
+    eigenvalue: bool,
     /// Whether the rods are kept, for their derivatives.
     derivatives: bool,
 }
 
-/// Rods at rest: one value for each, and nodes and their coordinates one rod after the other.
+/// Rods at rest: one value for each, and nodes and their coordinates one rod after the other; empty lists of what is not wanted.
 #[derive(Default)]
 struct Rest {
     points: Vec<f64>,
+    frames: Vec<f64>,
+    eigenvalue: Vec<f64>,
     energy: Vec<f64>,
     stable: Vec<bool>,
     gradient: Vec<f64>,
@@ -52,6 +59,8 @@ struct Rest {
 /// Where the results of a chunk of rods go.
 struct ChunkOfRest<'a> {
     points: &'a mut [f64],
+    frames: &'a mut [f64],
+    eigenvalue: &'a mut [f64],
     energy: &'a mut [f64],
     stable: &'a mut [bool],
     gradient: &'a mut [f64],
@@ -62,21 +71,23 @@ struct ChunkOfRest<'a> {
 
 impl Options {
     fn solve(&self, rods: &[Rod], progress: &dyn Progress) -> Result<Rest, Error> {
-        let values = if self.points { 3 * (self.elements + 1) } else { 0 };
-        let count = rods.len();
+        let (nodes, count) = (self.elements + 1, rods.len());
+        let room = |wanted: bool, each: usize| vec![0.0; if wanted { count * each } else { 0 }];
         let mut rest = Rest {
-            points: vec![0.0; count * values],
+            points: room(self.points, 3 * nodes),
+            frames: room(self.frames, 9 * nodes),
+            eigenvalue: room(self.eigenvalue, 1),
             energy: vec![0.0; count],
             stable: vec![false; count],
             gradient: vec![0.0; count],
             iterations: vec![0; count],
-            error: vec![0.0; if self.error { count } else { 0 }],
+            error: room(self.error, 1),
             found: Vec::new(),
         };
         let chunk = self.chunk();
         rest.found.resize_with(count.div_ceil(chunk), || None);
         let stage = StageCounter::new(progress, "rods", count.div_ceil(chunk));
-        rods.par_chunks(chunk).zip(rest.chunks(chunk, values)).try_for_each(|(rods, rest)| {
+        rods.par_chunks(chunk).zip(rest.chunks(chunk, nodes)).try_for_each(|(rods, rest)| {
             stage.check()?;
             self.solve_chunk(rods, rest);
             stage.advance();
@@ -88,12 +99,13 @@ impl Options {
     /// Memory of what is computed of a rod (bytes).
     fn size(&self) -> usize {
         let nodes = size_of::<[f64; 3]>() * (self.elements + 1);
-        // Energy, gradient and error; iterations, and whether it is stable.
-        let numbers = 3 * size_of::<f64>() + size_of::<u32>() + size_of::<bool>();
+        // Energy, gradient, error and eigenvalue; iterations, and whether it is stable.
+        let numbers = 4 * size_of::<f64>() + size_of::<u32>() + size_of::<bool>();
         // The solution, and tangent, d1 and curl in Python.
         let clamp = 8 * size_of::<f64>();
         let kept = size_of::<RodSolution>() + clamp + size_of::<[f64; 3]>() * self.elements;
-        numbers + if self.points { nodes } else { 0 } + if self.derivatives { kept } else { 0 }
+        let sizes = [(self.points, nodes), (self.frames, 3 * nodes), (self.derivatives, kept)];
+        numbers + sizes.iter().filter(|(wanted, _)| *wanted).map(|(_, size)| size).sum::<usize>()
     }
 
     /// Rods that one thread solves at a time.
@@ -120,47 +132,75 @@ impl Options {
             rest.gradient[i] = rod.gradient_norm;
             rest.iterations[i] = u32::try_from(rod.iterations).unwrap_or(u32::MAX);
         }
-        if rest.points.is_empty() && rest.error.is_empty() {
-            return found;
+        if self.eigenvalue {
+            rest.eigenvalue.copy_from_slice(&found.min_eigenvalues(rods));
         }
-        let coarse = (!rest.error.is_empty())
-            .then(|| Batch { elements: self.elements / 2, ..batch }.solve(rods));
-        for (i, rod) in rods.iter().enumerate() {
-            let fine = found.shape(rod, i).positions;
-            if !rest.points.is_empty() {
-                let points = &mut rest.points[i * 3 * fine.len()..(i + 1) * 3 * fine.len()];
-                for (point, node) in points.chunks_exact_mut(3).zip(&fine) {
-                    point.copy_from_slice(&node.to_array());
-                }
-            }
-            if let Some(coarse) = &coarse {
-                let coarse = coarse.shape(rod, i).positions;
+        let positions = self.put_nodes(rods, &found, rest);
+        if self.error {
+            let nodes = self.elements + 1;
+            let half = Batch { elements: self.elements / 2, ..batch };
+            let coarse = half.solve(rods).positions(rods);
+            let fine = positions.chunks_exact(nodes);
+            let both = fine.zip(coarse.chunks_exact(half.elements + 1));
+            for (error, (fine, coarse)) in rest.error.iter_mut().zip(both) {
                 let gaps = coarse.iter().zip(fine.iter().step_by(2));
                 // The first term of the error of jointed elements, which is of second order in their length
                 // (docs/theory.md, "Extrapolation, accuracy and the estimate of error").
-                rest.error[i] = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
+                *error = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
             }
         }
         found
     }
+
+    /// Puts the nodes and their frames in their places, as far as they are wanted. The positions of the nodes (m), if anything is made of
+    /// them.
+    fn put_nodes(
+        &self,
+        rods: &[Rod],
+        found: &BatchSolution,
+        rest: &mut ChunkOfRest<'_>,
+    ) -> Vec<DVec3> {
+        let positions: Vec<DVec3> = if self.frames {
+            let nodes = found.nodes(rods);
+            for (place, (_, frame)) in rest.frames.chunks_exact_mut(9).zip(&nodes) {
+                place.copy_from_slice(&frame.to_cols_array());
+            }
+            nodes.iter().map(|(position, _)| *position).collect()
+        } else if self.points || self.error {
+            found.positions(rods)
+        } else {
+            Vec::new()
+        };
+        for (place, position) in rest.points.chunks_exact_mut(3).zip(&positions) {
+            place.copy_from_slice(&position.to_array());
+        }
+        positions
+    }
 }
 
 impl Rest {
-    /// The results by chunks of as many rods, with `values` coordinates of each rod.
+    /// The results by chunks of as many rods, with `nodes` of each rod.
     fn chunks(
         &mut self,
         chunk: usize,
-        values: usize,
+        nodes: usize,
     ) -> impl IndexedParallelIterator<Item = ChunkOfRest<'_>> {
         let chunks = self.energy.len().div_ceil(chunk);
-        let points = split(&mut self.points, chunk * values, chunks);
+        let points = split(&mut self.points, chunk * 3 * nodes, chunks);
+        let frames = split(&mut self.frames, chunk * 9 * nodes, chunks);
         let error = split(&mut self.error, chunk, chunks);
+        let eigenvalue = split(&mut self.eigenvalue, chunk, chunks);
+        let wanted = points.into_par_iter().zip(frames).zip(error.into_par_iter().zip(eigenvalue));
         let numbers = self.energy.par_chunks_mut(chunk).zip(self.gradient.par_chunks_mut(chunk));
         let counts = self.stable.par_chunks_mut(chunk).zip(self.iterations.par_chunks_mut(chunk));
-        let lists = points.into_par_iter().zip(error).zip(&mut self.found);
-        lists.zip(numbers.zip(counts)).map(
-            |(((points, error), found), ((energy, gradient), (stable, iterations)))| ChunkOfRest {
+        wanted.zip(&mut self.found).zip(numbers.zip(counts)).map(
+            |(
+                (((points, frames), (error, eigenvalue)), found),
+                ((energy, gradient), (stable, iterations)),
+            )| ChunkOfRest {
                 points,
+                frames,
+                eigenvalue,
                 energy,
                 stable,
                 gradient,
@@ -180,8 +220,8 @@ fn split(values: &mut [f64], chunk: usize, chunks: usize) -> Vec<&mut [f64]> {
     values.chunks_mut(chunk).collect()
 }
 
-/// Rods at rest as arrays: nodes (H, P, 3) if they are wanted, energy, stable, gradient, iterations, the error if it is wanted, and
-/// the rods if derivatives are.
+/// Rods at rest as arrays: nodes (H, P, 3) if they are wanted, energy, stable, gradient, iterations; error, eigenvalue and frames (H, P, 3, 3), rows d1, d2
+/// and tangent, if they are wanted, and the rods if derivatives are.
 type Arrays<'py> = (
     Option<Bound<'py, PyArray3<f64>>>,
     Bound<'py, PyArray1<f64>>,
@@ -189,6 +229,8 @@ type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u32>>,
     Option<Bound<'py, PyArray1<f64>>>,
+    Option<Bound<'py, PyArray1<f64>>>,
+    Option<Bound<'py, PyArray4<f64>>>,
     Option<Bound<'py, RodsAtRest>>,
 );
 
@@ -215,24 +257,31 @@ pub(crate) fn settle_rods<'py>(
     options: Options,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Arrays<'py>> {
-    let rods = clamped.views().rods(py, &fibres.views(), count, options.size())?;
-    let shape = [count, options.elements + 1, 3];
-    let (points, error) = (options.points, options.error);
+    let views = clamped.views();
+    let rods = views.rods(py, &fibres.views(), count, options.size())?;
+    let clamps = views.clamps();
+    let nodes = options.elements + 1;
+    let (points, frames) = (options.points, options.frames);
+    let (error, eigenvalue) = (options.error, options.eigenvalue);
     let (elements, chunk) = (options.elements, options.chunk());
     let (rods, rest) = work::run(py, progress, move |p| {
         let rest = options.solve(&rods, p)?;
         Ok((rods, rest))
     })?;
     let found: Option<Vec<BatchSolution>> = rest.found.into_iter().collect();
-    let at_rest = found.map(|found| Bound::new(py, RodsAtRest::new(rods, elements, chunk, found)));
-    let nodes = PyArray1::from_vec(py, rest.points);
+    let at_rest =
+        found.map(|found| Bound::new(py, RodsAtRest::new(rods, elements, chunk, found, clamps)));
+    let positions = PyArray1::from_vec(py, rest.points);
+    let turns = PyArray1::from_vec(py, rest.frames);
     Ok((
-        points.then(|| nodes.reshape(shape)).transpose()?,
+        points.then(|| positions.reshape([count, nodes, 3])).transpose()?,
         PyArray1::from_vec(py, rest.energy),
         PyArray1::from_vec(py, rest.stable),
         PyArray1::from_vec(py, rest.gradient),
         PyArray1::from_vec(py, rest.iterations),
         error.then(|| PyArray1::from_vec(py, rest.error)),
+        eigenvalue.then(|| PyArray1::from_vec(py, rest.eigenvalue)),
+        frames.then(|| turns.reshape([count, nodes, 3, 3])).transpose()?,
         at_rest.transpose()?,
     ))
 }

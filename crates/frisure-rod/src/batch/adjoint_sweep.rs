@@ -42,7 +42,7 @@ pub(super) struct AdjointJoint<F> {
 }
 
 impl<F: Lanes> AdjointJoint<F> {
-    pub(super) fn zero(zero: F) -> Self {
+    fn zero(zero: F) -> Self {
         let (v, m) = (Vec3::splat(zero), Mat3::splat(zero));
         Self {
             arm: v,
@@ -86,9 +86,37 @@ pub(super) struct AdjointSums<F> {
 pub(super) struct AdjointBundle<F> {
     pub(super) joints: Vec<AdjointJoint<F>>,
     pub(super) rods: RodLanes<F>,
+    /// Derivative of the loss by the energy of each rod (1/J). At rest it asks nothing of the joints.
+    pub(super) by_energy: F,
+}
+
+/// What a sweep to the root leaves there: the sums of the loss over all nodes, and the first moment (m²) of the rod.
+struct AtRoot<F> {
+    force: Vec3<F>,
+    torque: Vec3<F>,
+    magnification: F,
+    moment: Vec3<F>,
 }
 
 impl<F: Lanes> AdjointBundle<F> {
+    #[inline(always)]
+    pub(super) fn new(zero: F, elements: usize, uniform: bool) -> Self {
+        Self {
+            joints: vec![AdjointJoint::zero(zero); elements],
+            rods: RodLanes::new(zero, elements, uniform),
+            by_energy: zero,
+        }
+    }
+
+    /// The least pivot of `H − λ K/h` of each rod with λ = `least`, less its rounding error: positive if all eigenvalues are above λ.
+    /// Frames and positions are those of [`Self::shape`].
+    #[inline(always)]
+    pub(super) fn pivot_above(&mut self, least: F) -> F {
+        let mut result = SweepResult::new(least.splat(0.0));
+        self.backward(&mut result, -least);
+        result.pivot
+    }
+
     /// Solves `H a = (∂x/∂c)ᵀ ∂ℓ/∂x` of each rod and forms the products with the parameters.
     ///
     /// The least pivot of `H − λ K/h` with λ = `least` is returned, too: it is positive if all eigenvalues are above λ.
@@ -97,20 +125,19 @@ impl<F: Lanes> AdjointBundle<F> {
         self.shape();
         let zero = self.rods.weight.splat(0.0);
         // What this sweep leaves in the joints the next one replaces.
-        let mut shifted = SweepResult::new(zero);
-        self.backward(&mut shifted, zero.splat(-least));
+        let above = self.pivot_above(zero.splat(least));
         let mut result = SweepResult::new(zero);
-        let (force, torque, magnification) = self.backward(&mut result, zero);
+        let AtRoot { force, torque, magnification, moment } = self.backward(&mut result, zero);
         let (bent, elastic) = self.forward();
-        let load = self.products();
+        let load = self.products() - moment * self.by_energy;
         let curvature = result.decrease + result.decrease;
         let sums = AdjointSums { force, torque, magnification, load, bent, curvature, elastic };
-        (sums, result, shifted.pivot)
+        (sums, result, above)
     }
 
     /// Frames and positions, from root to tip.
     #[inline(always)]
-    fn shape(&mut self) {
+    pub(super) fn shape(&mut self) {
         let mut frame = self.rods.root;
         let mut position = Vec3::splat(self.rods.weight.splat(0.0));
         for i in 0..self.joints.len() {
@@ -130,7 +157,7 @@ impl<F: Lanes> AdjointBundle<F> {
 
     /// The Hessian, with `damping` times the stiffness, eliminated from tip to root with the loss on its right-hand side. (L11)
     #[inline(always)]
-    fn backward(&mut self, result: &mut SweepResult<F>, damping: F) -> (Vec3<F>, Vec3<F>, F) {
+    fn backward(&mut self, result: &mut SweepResult<F>, damping: F) -> AtRoot<F> {
         let zero = self.rods.weight.splat(0.0);
         let stiffness = Stiffness::new(self.rods.stiffness, damping);
         let half_length = zero.splat(0.5) * self.rods.spacing;
@@ -172,19 +199,21 @@ impl<F: Lanes> AdjointBundle<F> {
                 hessian = back.congruence(left);
             }
         }
-        (force, torque, magnification)
+        AtRoot { force, torque, magnification, moment }
     }
 
-    /// The adjoint a from root to tip, `−Σ a c` and `aᵀ K a`. (L12)
+    /// The adjoint a from root to tip, `−Σ a c`, with ½ Σ c² of the energy, and `aᵀ K a`. (L12)
     #[inline(always)]
     fn forward(&mut self) -> (Vec3<F>, F) {
         let zero = self.rods.weight.splat(0.0);
         let (mut turned, mut bent) = (Vec3::splat(zero), Vec3::splat(zero));
         let mut elastic = zero;
+        let by_energy = zero.splat(0.5) * self.by_energy;
         for joint in &mut self.joints {
             let seen = joint.after.transpose_mul(turned);
             let a = Vec3::splat(zero) - (joint.step + joint.gain.transpose_mul(seen));
-            bent = bent - a.component_mul(joint.control);
+            let c = joint.control;
+            bent = bent + (c * by_energy - a).component_mul(c);
             elastic = elastic + a.dot(self.rods.stiffness.component_mul(a));
             joint.turned_alone = joint.after.mul_vec(joint.jacobian.mul_vec(a));
             turned = turned + joint.turned_alone;
@@ -203,6 +232,8 @@ impl<F: Lanes> AdjointBundle<F> {
         // e × v.
         let vertical = self.rods.up;
         let around = |v: Vec3<F>| vertical.cross(v);
+        // The energy w e·∫ r ds sees a rotation and a shift as a rotation by the joints before the piece does, with −e for e × it.
+        let of_energy = vertical * self.by_energy;
         for i in (0..self.joints.len()).rev() {
             let [first, second] = both(&self.rods.halves, i);
             let earlier = match i {
@@ -229,12 +260,12 @@ impl<F: Lanes> AdjointBundle<F> {
                     - piece.moment_by.transpose_mul(frame.transpose_mul(about)) * w;
                 by * half_length
             };
-            let about = around(joint.turned);
+            let about = around(joint.turned) - of_energy;
             let after =
                 by_piece(second, joint.after, joint.end, joint.end_moment, moved, beyond, about);
             moved = moved + joint.turned_alone.cross(joint.moment);
             beyond = beyond + half_length;
-            let about = around(earlier);
+            let about = around(earlier) - of_energy;
             let before = by_piece(first, joint.start, joint.at, joint.moment, moved, beyond, about);
             beyond = beyond + half_length;
             joint.by_strain = [before, after];

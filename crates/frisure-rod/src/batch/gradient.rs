@@ -3,10 +3,10 @@
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 
-use super::adjoint_sweep::{AdjointBundle, AdjointJoint};
+use super::adjoint_sweep::AdjointBundle;
 use super::division::Joints;
 use super::lanes::Lanes;
-use super::rod_lanes::{RodLanes, is_minimum};
+use super::rod_lanes::is_minimum;
 use super::solution::BatchSolution;
 use super::solver::{Batch, f64s, uniform};
 use crate::chain::Chain;
@@ -86,36 +86,61 @@ impl BatchGradient {
     }
 }
 
-/// Derivatives of a loss by the nodes of rods.
+/// The derivatives of a loss by the shapes and the energies of rods at rest; each list is empty for none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BatchLoss<'a> {
+    /// By the position of each node (loss per m, world), one more for each rod than elements, those of a rod one after the other,
+    /// the root first.
+    pub positions: &'a [DVec3],
+    /// By a rotation of the frame at each node (loss per rad, world).
+    pub frames: &'a [DVec3],
+    /// By the energy of each rod (loss per J), elastic and of the weight.
+    pub energies: &'a [f64],
+}
+
+impl<'a> BatchLoss<'a> {
+    /// Of the positions of the nodes alone.
+    #[must_use]
+    pub fn of_positions(positions: &'a [DVec3]) -> Self {
+        Self { positions, ..Self::default() }
+    }
+}
+
+/// The loss of a call, and how many nodes each rod has.
 #[derive(Clone, Copy)]
-struct Loss<'a> {
-    by_positions: &'a [DVec3],
-    /// Empty for none.
-    by_frames: &'a [DVec3],
-    /// Nodes of each rod.
+pub(super) struct Loss<'a> {
+    of: BatchLoss<'a>,
     nodes: usize,
 }
 
 impl Loss<'_> {
+    /// That of nothing, of rods of `n` elements.
+    pub(super) fn none(n: usize) -> Self {
+        Self { of: BatchLoss::default(), nodes: n + 1 }
+    }
+
     fn position(&self, rod: usize, node: usize) -> DVec3 {
-        self.by_positions[rod * self.nodes + node]
+        self.of.positions.get(rod * self.nodes + node).copied().unwrap_or(DVec3::ZERO)
     }
 
     fn frame(&self, rod: usize, node: usize) -> DVec3 {
-        self.by_frames.get(rod * self.nodes + node).copied().unwrap_or(DVec3::ZERO)
+        self.of.frames.get(rod * self.nodes + node).copied().unwrap_or(DVec3::ZERO)
+    }
+
+    fn energy(&self, rod: usize) -> f64 {
+        self.of.energies.get(rod).copied().unwrap_or_default()
     }
 }
 
 impl Batch {
-    /// The derivatives of a loss of the nodes of rods at rest by the rods' parameters, computed on this thread: what
-    /// [`Sensitivity::vjp`] gives for each. docs/theory.md, "Rods in lanes", (L11) to (L13)
+    /// The derivatives of a loss of rods at rest by the rods' parameters, computed on this thread: what [`Sensitivity::vjp`] and
+    /// [`Sensitivity::by_energy`] give for each. docs/theory.md, "Rods in lanes", (L11) to (L13)
     ///
     /// `found` is what [`Self::solve`] gave for the same rods, best with a [`Self::tolerance`] of 1e-10: a rod farther from rest
-    /// than 1e-9 goes to [`Sensitivity`], which is slower. `by_positions` (loss per m) and `by_frames` (loss per rad, world; empty for
-    /// none) have one vector for each node, one more per rod than elements, those of a rod one after the other, the root first.
+    /// than 1e-9 goes to [`Sensitivity`], which is slower.
     ///
     /// ```
-    /// use frisure_rod::batch::Batch;
+    /// use frisure_rod::batch::{Batch, BatchLoss};
     /// use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Load, Root, Section, TorsionConstant};
     /// use glam::DVec3;
     ///
@@ -133,34 +158,31 @@ impl Batch {
     /// // The height of the tip grows with stiffness, and falls with weight.
     /// let mut loss = vec![DVec3::ZERO; 16];
     /// loss[15] = DVec3::Z;
-    /// let gradient = batch.vjp(&rods, &found, &loss, &[]).of(0);
+    /// let gradient = batch.vjp(&rods, &found, BatchLoss::of_positions(&loss)).of(0);
     /// let [by_density, by_youngs_modulus, _] = gradient.material(&rods[0]);
     /// assert!(by_density < 0.0 && by_youngs_modulus > 0.0);
     /// # Ok::<(), frisure_rod::InvalidQuantity>(())
     /// ```
     ///
     /// # Panics
-    /// If the rods are not as many as were solved, or there is not one vector for each node.
+    /// If the rods are not as many as were solved, or a list of the loss has neither one entry for each node or rod, nor none.
     #[must_use]
-    pub fn vjp(
-        &self,
-        rods: &[Rod],
-        found: &BatchSolution,
-        by_positions: &[DVec3],
-        by_frames: &[DVec3],
-    ) -> BatchGradient {
+    pub fn vjp(&self, rods: &[Rod], found: &BatchSolution, loss: BatchLoss<'_>) -> BatchGradient {
         let n = found.elements;
         assert_eq!(rods.len(), found.rods.len(), "the rods that were solved");
-        assert_eq!(by_positions.len(), rods.len() * (n + 1), "one vector for each node");
-        let frames = by_frames.is_empty() || by_frames.len() == by_positions.len();
-        assert!(frames, "one vector for each node, or none");
+        for vectors in [loss.positions, loss.frames] {
+            let all = vectors.is_empty() || vectors.len() == rods.len() * (n + 1);
+            assert!(all, "one vector for each node, or none");
+        }
+        let energies = loss.energies.len();
+        assert!(energies == 0 || energies == rods.len(), "one number for each rod, or none");
         let none = RodGradient::none(DerivativeError::NotAMinimum);
         let mut gradient = BatchGradient {
             elements: n,
             natural_strain: vec![[DVec3::ZERO; 2]; rods.len() * n],
             rods: vec![none; rods.len()],
         };
-        let loss = Loss { by_positions, by_frames, nodes: n + 1 };
+        let loss = Loss { of: loss, nodes: n + 1 };
         dispatch!(Level::new(), simd => in_lanes(f64s(simd), rods, found, loss, &mut gradient));
         gradient
     }
@@ -175,10 +197,7 @@ fn in_lanes<F: Lanes>(
     gradient: &mut BatchGradient,
 ) {
     let n = found.elements;
-    let mut bundle = AdjointBundle {
-        joints: vec![AdjointJoint::zero(zero); n],
-        rods: RodLanes::new(zero, n, uniform(rods)),
-    };
+    let mut bundle = AdjointBundle::new(zero, n, uniform(rods));
     let mut joints = Joints::default();
     let mut strains = Vec::new();
     for first in (0..rods.len()).step_by(F::LANES) {
@@ -208,7 +227,10 @@ fn in_lanes<F: Lanes>(
             let weight = rods[rod].load();
             let load = sums.load.get(lane);
             let turned = sums.torque.get(lane) + loss.frame(rod, 0);
-            let stretched = sums.magnification.get(lane) + by_scale + 3.0 * weight.dot(load);
+            // Of the energy E = E_el + E_g, by_scale + 2 E_g − E_el = by_scale + 3 E_g − E, and 3 E_g is in the load. (D5)
+            let energy = loss.energy(rod) * found.rods[rod].energy;
+            let stretched =
+                sums.magnification.get(lane) + by_scale + 3.0 * weight.dot(load) - energy;
             let bound = sums.curvature.get(lane) / sums.elastic.get(lane);
             // A loss that asks nothing has no adjoint: its derivatives are zero, whatever the stability.
             let eigenvalue_bound = if bound.is_nan() { 1.0 } else { bound };
@@ -240,7 +262,7 @@ pub(super) fn half_strains(rod: &Rod, n: usize, strains: &mut Vec<DVec3>) {
 }
 
 #[inline(always)]
-fn load<F: Lanes>(
+pub(super) fn load<F: Lanes>(
     bundle: &mut AdjointBundle<F>,
     lane: usize,
     (rod, index): (&Rod, usize),
@@ -250,6 +272,7 @@ fn load<F: Lanes>(
 ) {
     let n = found.elements;
     bundle.rods.set(lane, rod, joints);
+    bundle.by_energy.set(lane, loss.energy(index));
     let controls = &found.controls[index * n..(index + 1) * n];
     for (i, (joint, control)) in bundle.joints.iter_mut().zip(controls).enumerate() {
         joint.arm.set(lane, joints.arms[i]);
@@ -267,23 +290,28 @@ fn alone(
     loss: Loss<'_>,
     natural_strain: &mut [[DVec3; 2]],
 ) -> RodGradient {
-    let nodes = index * loss.nodes..(index + 1) * loss.nodes;
     let by_nodes = ShapeChange {
-        positions: loss.by_positions[nodes.clone()].to_vec(),
-        rotations: loss.by_frames.get(nodes).map(<[DVec3]>::to_vec).unwrap_or_default(),
+        positions: (0..loss.nodes).map(|node| loss.position(index, node)).collect(),
+        rotations: (0..loss.nodes).map(|node| loss.frame(index, node)).collect(),
     };
+    let by_energy = loss.energy(index);
     let chain = Chain::uniform(rod, ElementKind::Jointed, found.elements);
     let at = Sensitivity::new(&Problem::new(&chain, &[]), found.shape(rod, index));
     let both = at.and_then(|at| Ok((at.vjp_with_halves(&by_nodes)?, at)));
     match both {
         Ok(((by, halves), at)) => {
-            natural_strain.copy_from_slice(&halves);
+            let (energy, of_energy) = at.by_energy_with_halves();
+            let pairs = halves.iter().zip(&of_energy);
+            for (place, (by, of)) in natural_strain.iter_mut().zip(pairs) {
+                *place = [by[0] + of[0] * by_energy, by[1] + of[1] * by_energy];
+            }
+            let length = |of: &ParameterGradient| of.length.unwrap_or_default();
             RodGradient {
-                length: by.length.unwrap_or_default(),
-                stiffness: by.stiffness,
-                load: by.load,
-                root_position: by.root_position,
-                root_rotation: by.root_rotation,
+                length: length(&by) + length(&energy) * by_energy,
+                stiffness: by.stiffness + energy.stiffness * by_energy,
+                load: by.load + energy.load * by_energy,
+                root_position: by.root_position + energy.root_position * by_energy,
+                root_rotation: by.root_rotation + energy.root_rotation * by_energy,
                 eigenvalue_bound: at.min_eigenvalue(),
                 regularity: Ok(at.regularity()),
             }

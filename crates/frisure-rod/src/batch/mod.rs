@@ -39,8 +39,8 @@
 //! `division` (a rod into joints), `weight_lanes` and `contact_lanes` (rods into lanes), `weight_sweep` and
 //! `contact_sweep` (backward and forward over the joints), `elimination` (one joint: energy, gradient, Hessian block),
 //! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes)
-//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`. One rod by itself: `joint_chain`,
-//! `chain_factor`.
+//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`; `eigenvalue`. The shapes of all: `nodes`. One
+//! rod by itself: `joint_chain`, `chain_factor`.
 
 mod adjoint_sweep;
 pub mod chain_factor;
@@ -49,12 +49,14 @@ mod contact_lanes;
 mod contact_sweep;
 mod contact_term;
 mod division;
+mod eigenvalue;
 mod elimination;
 mod gradient;
 mod joint_chain;
 mod lanes;
 mod linear;
 mod newton;
+mod nodes;
 mod rod_lanes;
 mod rotation;
 mod solution;
@@ -72,7 +74,7 @@ mod agreement;
 mod contact_tests;
 
 pub use contact::{ConfinementTube, Contact, ContactField};
-pub use gradient::{BatchGradient, RodGradient};
+pub use gradient::{BatchGradient, BatchLoss, RodGradient};
 pub use joint_chain::JointChain;
 pub use solution::{BatchSolution, RodSolution};
 pub use solver::{Batch, Precision};

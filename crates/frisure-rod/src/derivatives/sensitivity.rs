@@ -500,6 +500,12 @@ impl Sensitivity {
     /// The derivative of the energy (J) at rest by all parameters: at rest the controls do not count (envelope theorem).
     #[must_use]
     pub fn by_energy(&self) -> ParameterGradient {
+        self.by_energy_with_halves().0
+    }
+
+    /// [`Self::by_energy`], and the derivatives by the natural strain of both halves of each jointed element; of helix elements there
+    /// are none.
+    pub(crate) fn by_energy_with_halves(&self) -> (ParameterGradient, Vec<[DVec3; 2]>) {
         // E = Σ ½ (c − h u⁰)ᵀ K/h (c − h u⁰) − f·∫ (r − r_root) ds; that of joints has u⁰ in r instead.
         let squares: DVec3 = self.bent.iter().map(|bent| *bent * *bent).sum();
         let moved = self.first_moment;
@@ -511,14 +517,15 @@ impl Sensitivity {
         // Elastic energy is as 1/L, that of the weight as L², besides the natural strain. (D5)
         let stretched = 2.0 * self.energy.gravity - self.energy.elastic
             + self.by_scale(&natural_strain, halves.as_deref());
-        ParameterGradient {
+        let gradient = ParameterGradient {
             natural_strain,
             length: self.alone.then_some(stretched / self.length),
             stiffness: squares * (0.5 / self.spacing),
             load: -moved,
             root_position: DVec3::ZERO,
             root_rotation: -moved.cross(self.load),
-        }
+        };
+        (gradient, halves.unwrap_or_default())
     }
 
     /// The derivative by a factor of all natural strains, from those by each element's, or by each half's of jointed ones.
