@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use frisure::hairstyle::contact::SwitchDistance;
 use frisure::hairstyle::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
 use frisure::progress::Cancelled;
 use frisure::rod::Rod;
@@ -42,6 +43,9 @@ type Gradient<'py> = (
 
 /// The nodes of all guides (N, 3), and how many each has (G,).
 type Nodes<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>);
+
+/// Distances of each guide (G, 3), and a flag for each (G,).
+type Switches<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<bool>>);
 
 /// The changes of G guides: of natural strain and of gravity (G, 3), of moduli and density (G, 3), of the stiffness of hair and of skin, a rotation.
 type Changes<'py> = (
@@ -86,6 +90,16 @@ impl HeadAtRest {
         let head = &self.0.sensitivity;
         let (value, error) = head.lowest_eigenvalue();
         (value, error, head.gradient_norm(), head.regularity() == Regularity::Regular)
+    }
+
+    /// How far (m) each guide is from where skin begins to press, a clip pulls as hard as it can, and hair begins to press, (G, 3), and whether its
+    /// derivatives hold on one side only (G,).
+    fn switches<'py>(&self, py: Python<'py>) -> PyResult<Switches<'py>> {
+        let switches = self.0.sensitivity.switch_distances();
+        let distances: Vec<DVec3> =
+            switches.iter().map(|at| DVec3::new(at.skin, at.hold, at.hair)).collect();
+        let one_sided = switches.iter().map(SwitchDistance::is_one_sided).collect();
+        Ok((rows(py, &distances)?, PyArray1::from_vec(py, one_sided)))
     }
 
     /// The derivatives of a loss from those by the nodes, (N, 3), and by their frames.

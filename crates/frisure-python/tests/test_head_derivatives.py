@@ -41,6 +41,13 @@ def test_the_nodes_are_those_of_the_guides(element: str, head: frisure.HeadDeriv
     assert "24 guides" in repr(head)
 
 
+def test_how_near_contact_is_to_where_it_begins_is_told(head: frisure.HeadDerivatives) -> None:
+    assert head.switch_distance.shape == (24, 3) and (head.switch_distance >= 0).all()
+    skin, hold, hair = head.switch_distance.T
+    assert np.isfinite(skin).all() and np.isinf(hold).all() and (hair < 0.05).any()
+    assert head.one_sided.shape == (24,) and np.array_equal(head.one_sided, np.minimum(skin, hold) < 1e-9)
+
+
 def test_the_stiffness_of_hair_moves_the_head_as_differences_do(element: str, head: frisure.HeadDerivatives) -> None:
     step = 1e-3
     stiffer, softer = (predicted(element, hair_stiffness=30.0 + sign * step).derivatives() for sign in (1, -1))

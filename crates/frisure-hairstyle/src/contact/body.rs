@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 use super::bed::Bed;
 use super::friction::{FrictionSurface, Pressed};
 use super::layers::Layer;
+use super::switch::SwitchDistance;
 use super::thickness::Thickness;
 use crate::head::{Head, Sphere};
 use crate::math::{outer, smooth_step};
@@ -185,6 +186,26 @@ impl BodyContact<'_> {
             force -= self.penalty(clearance, distance)[1];
         });
         force
+    }
+
+    /// How far the point at arc length `s` (m) and position `p` (m) is from where skin and hair begin to press on it.
+    pub(crate) fn switch_distance(&self, s: f64, p: DVec3) -> SwitchDistance {
+        let (clearance, mut found) = (self.clearance(s), SwitchDistance::FAR);
+        let mut at = |distance: f64| {
+            if self.skin > 0.0 {
+                found.skin = found.skin.min(distance.abs());
+            }
+            if self.hair > 0.0 && clearance > 0.0 {
+                found.hair = found.hair.min((clearance - distance).abs());
+            }
+        };
+        match self.body {
+            Body::None => {}
+            Body::Spheres => (self.head.spheres().iter())
+                .for_each(|sphere| at((p - sphere.centre).length() - sphere.radius)),
+            Body::SignedDistance => at(self.head.signed_distance().value(p)),
+        }
+        found
     }
 
     /// Energy per length (J/m) at a distance (m), and its first two derivatives.

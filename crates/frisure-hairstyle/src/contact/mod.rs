@@ -18,6 +18,7 @@ mod lock;
 mod neighbours;
 mod pull;
 mod sieve;
+mod switch;
 #[cfg(test)]
 mod test_field;
 mod thickness;
@@ -34,4 +35,5 @@ pub(crate) use lock::LockFriction;
 pub use neighbours::Neighbours;
 pub(crate) use neighbours::{Contact, ContactPairs, Samples};
 pub use pull::Pull;
+pub use switch::SwitchDistance;
 pub use thickness::Thickness;

@@ -433,6 +433,24 @@ impl ContactPairs {
         contacts
     }
 
+    /// How far (m) the points of a guide are from where they begin to touch, or to leave, those of others; infinite where none is near.
+    pub(crate) fn switch_distance(&self, guide: usize) -> f64 {
+        let (own, near) = (&self.samples[guide], &self.nearby[guide]);
+        let gap = |(here, run): (u32, &Run)| {
+            let (here, other) = (here as usize, &self.samples[run.guide as usize]);
+            let points = run.first as usize..run.end as usize;
+            // Without a radius nothing touches: a piece in a braid.
+            points
+                .map(|there| {
+                    let reach = own.radii[here] + other.radii[there];
+                    let away = own.positions[here].distance(other.positions[there]);
+                    if reach > 0.0 { (away - reach).abs() } else { f64::INFINITY }
+                })
+                .fold(f64::INFINITY, f64::min)
+        };
+        near.iter().map(gap).fold(f64::INFINITY, f64::min)
+    }
+
     /// Calls `close` with guide and point of what touches point `k` of a guide at `p` (m), and of a few that hardly do not.
     #[inline]
     fn for_each_close(&self, guide: usize, k: usize, p: DVec3, mut close: impl FnMut(u32, usize)) {

@@ -81,6 +81,13 @@ impl Pull {
         }
     }
 
+    /// How far (m) the point at arc length `s` (m) and position `p` (m) is from where it is pulled with the largest force.
+    pub(crate) fn switch_distance(&self, s: f64, p: DVec3) -> f64 {
+        self.spring(s).map_or(f64::INFINITY, |(point, stiffness, most)| {
+            (p.distance(point) - most / stiffness).abs()
+        })
+    }
+
     /// What holds the hair at an arc length (m): the point (m), the stiffness (Pa) and the largest force per length (N/m).
     fn spring(&self, s: f64) -> Option<(DVec3, f64, f64)> {
         match *self {

@@ -14,6 +14,7 @@ use super::lock;
 use super::tether::{Tether, farthest, firmness};
 use crate::contact::{
     BodyContact, CombedHold, ContactPairs, Friction, FrictionGap, Layer, Pull, Samples, Strand,
+    SwitchDistance,
 };
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
@@ -131,6 +132,20 @@ impl<'a> Wisp<'a> {
     fn body_points(&self) -> Vec<DVec3> {
         let samples = body_samples(self.guide, self.chain.len());
         self.chain.sample_points(&self.settled.shape, samples)
+    }
+
+    /// How near the guide is to where what it touches by itself begins or ends.
+    pub(super) fn switch_distance(&self) -> SwitchDistance {
+        let points = self.body_points();
+        let spacing = self.guide.rod.length() / points.len() as f64;
+        let pulls = || self.guide.pull.iter().chain(&self.letting_go);
+        let at = |(k, p): (usize, &DVec3)| {
+            let s = spacing * (k + 1) as f64;
+            let held =
+                pulls().map(|pull| pull.switch_distance(s, *p)).fold(f64::INFINITY, f64::min);
+            SwitchDistance { hold: held, ..self.body.switch_distance(s, *p) }
+        };
+        points.iter().enumerate().map(at).fold(SwitchDistance::FAR, SwitchDistance::and)
     }
 
     /// Takes over how the guide is pressed on skin where it is now, lets anchors follow what slipped, and returns how far

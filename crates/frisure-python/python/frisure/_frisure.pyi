@@ -89,6 +89,7 @@ class HeadAtRest:
     def of(prediction: Prediction, progress: _Progress | None) -> HeadAtRest: ...
     def points(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
     def certificate(self) -> tuple[float, float, float, bool]: ...
+    def switches(self) -> tuple[NDArray[np.float64], NDArray[np.bool_]]: ...
     def vjp(
         self,
         by_points: NDArray[np.float64],
@@ -141,8 +142,8 @@ class RodsAtRest:
         self,
         by_points: NDArray[np.float64] | None,
         by_frames: NDArray[np.float64] | None,
-        progress: _Progress | None,
         by_energy: NDArray[np.float64] | None,
+        progress: _Progress | None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]]: ...
     def jvp(
         self,
@@ -170,9 +171,9 @@ def settle_rods(
     NDArray[np.float64],
     NDArray[np.uint32],
     NDArray[np.float64] | None,
+    NDArray[np.float64] | None,
+    NDArray[np.float64] | None,
     RodsAtRest | None,
-    NDArray[np.float64] | None,
-    NDArray[np.float64] | None,
 ]: ...
 def inverse_rods(
     points: NDArray[np.float64],

@@ -88,8 +88,13 @@ class HeadDerivatives:
     - `lowest_eigenvalue`: of the second variation of the head, relative to that of each guide while the others hold still; 1 without contact, 0 where
       stability is lost. An eigenvalue lies within `eigenvalue_error` of it.
     - `regular`: whether neither it nor the smallest eigenvalue of any guide is below 1e-3; nearer to a loss of stability derivatives hold for tiny changes only.
+    - `one_sided` (G,) bool: whether a point of the guide is within 1e-9 m of the surface of the skin, or of where a clip pulls as hard as it can. The
+      derivatives are those of the side on which the head is, and hold for changes towards that side only: skin is firm as soon as it is touched.
+    - `switch_distance` (G, 3), m: how far the nearest point of each guide is from the surface of the skin, from where a clip or a braid pulls with its
+      largest force, and from where hair begins to press (the bed beneath, other wisps); infinite where there is none near, and for density. Derivatives
+      hold for changes that move the guide by less than that. Hair is soft where it begins to touch: there they are the same on both sides.
 
-    Where wisps just touch, the derivatives are those of the side on which the head is. Numbers that the program derives from a fibre besides its rod stay as
+    Numbers that the program derives from a fibre besides its rod stay as
     they are: the thickness of its wisp, the bed of hair beneath it, the force that holds combed hair, firmer skin beneath tight curls.
     """
 
@@ -98,6 +103,9 @@ class HeadDerivatives:
         self.points: Float64
         self.points, counts = self._at_rest.points()
         self.offsets: NDArray[np.int64] = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        self.switch_distance: Float64
+        self.one_sided: NDArray[np.bool_]
+        self.switch_distance, self.one_sided = self._at_rest.switches()
         self.lowest_eigenvalue, self.eigenvalue_error, self.gradient_norm, self.regular = self._at_rest.certificate()
 
     def __len__(self) -> int:

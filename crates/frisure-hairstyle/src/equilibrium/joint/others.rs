@@ -75,6 +75,11 @@ impl Others {
         }
     }
 
+    /// How far (m) a guide is from where it begins to touch, or to leave, another; see [`crate::contact::SwitchDistance::hair`].
+    pub(super) fn switch_distance(&self, guide: usize) -> f64 {
+        self.pairs().map_or(f64::INFINITY, |pairs| pairs.switch_distance(guide))
+    }
+
     /// The pairs of wisps, if there are any.
     pub(super) fn pairs(&self) -> Option<&ContactPairs> {
         match self {

@@ -18,6 +18,7 @@ use super::certificate::{LowestEigenvalue, lowest_eigenvalue};
 use super::hessian::{Controls, JointHessian, Preconditioner, add, add_scaled, dot, zero};
 use super::newton::minimise;
 use super::state::HeadState;
+use crate::contact::SwitchDistance;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 
@@ -138,7 +139,8 @@ impl HeadGradient {
 ///
 /// Contact with skin and with other hair, combs and clips push and pull as their laws say where the guides move; numbers that the program derives from a
 /// fibre besides its rod (the thickness of its wisp, the bed of hair beneath it, the force that holds combed hair, firmer skin under tight curls) stay as they
-/// are. Where the second derivative of a contact jumps, as where wisps just touch, the derivatives are those of the side on which the head is.
+/// are. Where the second derivative of a contact jumps, as where a guide just touches skin, the derivatives are those of the side on which the head is:
+/// [`Self::switch_distances`] says how near each guide is to that.
 ///
 /// ```
 /// use frisure_hairstyle::{HeadSensitivity, PredictOptions, head::Head, predict, preset};
@@ -165,6 +167,7 @@ pub struct HeadSensitivity {
     by_stiffness: [Controls; 2],
     gradient_norm: f64,
     lowest: LowestEigenvalue,
+    switches: Vec<SwitchDistance>,
 }
 
 impl fmt::Debug for HeadSensitivity {
@@ -213,6 +216,7 @@ impl HeadSensitivity {
         Ok(Self {
             guides: state.sensitivities().map_err(|(guide, error)| in_guide(guide)(error))?,
             by_stiffness: state.gradients_by_stiffness(spec),
+            switches: state.switch_distances(),
             hessian,
             gradient_norm: gradient,
             lowest,
@@ -253,6 +257,19 @@ impl HeadSensitivity {
         } else {
             Regularity::Regular
         }
+    }
+
+    /// How near each guide is to where contact begins or ends, in the order of [`Hairstyle::guides`].
+    #[must_use]
+    pub fn switch_distances(&self) -> &[SwitchDistance] {
+        &self.switches
+    }
+
+    /// The guides whose contact is within [`SwitchDistance::ONE_SIDED`] of where its second derivative jumps, in order: derivatives hold for changes
+    /// towards the side on which those are, and guides that they move move along.
+    pub fn one_sided(&self) -> impl Iterator<Item = usize> {
+        let switches = self.switches.iter().enumerate();
+        switches.filter(|(_, distance)| distance.is_one_sided()).map(|(guide, _)| guide)
     }
 
     /// The derivative of a loss by what the head is made of, from that by the nodes of each guide (loss per m and per rad). docs/theory.md (D7)
@@ -404,7 +421,7 @@ mod tests {
     use super::*;
     use crate::spec::{HairContact, HairstyleSpec, HeadMethod};
     use crate::{PredictOptions, predict, preset};
-    use frisure_rod::{Chain, ElementKind, NaturalStrain, Resolution, Rod};
+    use frisure_rod::{Chain, ElementKind, NaturalStrain, Resolution, Rod, Root};
     use glam::DQuat;
 
     fn described(contact: HairContact, element: ElementKind) -> HairstyleSpec {
@@ -561,6 +578,73 @@ mod tests {
             agrees(HairContact::Layers, element, 1e-6);
             agrees(HairContact::None, element, 1e-5);
         }
+    }
+
+    /// A node of a guide is brought to touch skin exactly, by how far out the guide is rooted.
+    #[test]
+    fn a_guide_that_just_touches_skin_is_one_sided() {
+        let head = Head::mannequin();
+        let skin = head.signed_distance();
+        let spec = described(HairContact::None, ElementKind::Helix);
+        let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+        let rooted = |guide: usize, shift: DVec3| {
+            let mut other = hairstyle.clone();
+            let mut spec = other.guides[guide].rod.spec().clone();
+            let (place, frame) = (spec.root.position() + shift, spec.root.frame());
+            spec.root = Root::from_tangent(place, frame.z_axis, frame.x_axis).unwrap();
+            set_rod(&mut other, guide, &Rod::new(spec).unwrap());
+            HeadSensitivity::new(&other, &head, &()).ok()
+        };
+        // 1. The nodes off the skin and near it, the first of them that a shift of the root presses on it.
+        let first = HeadSensitivity::new(&hairstyle, &head, &()).unwrap();
+        let nodes = first.shapes().enumerate().flat_map(|(guide, shape)| {
+            let nodes = shape.positions.iter().enumerate().skip(2);
+            nodes.map(move |(node, x)| (guide, node, *x))
+        });
+        let mut nodes: Vec<_> = nodes.collect();
+        nodes.retain(|(_, _, x)| skin.value(*x) > 1e-5);
+        nodes.sort_by(|a, b| skin.value(a.2).total_cmp(&skin.value(b.2)));
+        let depth = |guide: usize, node: usize, shift: DVec3| {
+            let at = rooted(guide, shift)?;
+            Some(skin.value(at.shapes().nth(guide)?.positions[node]))
+        };
+        let pressed = nodes.iter().take(10).find_map(|&(guide, node, x)| {
+            let out = skin.value_gradient_hessian(x).1 * (2.0 * skin.value(x));
+            let shifts = [1.0, -1.0, 2.0, -2.0, 4.0, -4.0];
+            let far =
+                shifts.iter().find(|&&k| depth(guide, node, out * k).is_some_and(|d| d < 0.0));
+            Some((guide, node, out * *far?))
+        });
+        let (guide, node, shift) = pressed.expect("a node that comes to touch");
+        assert!(first.switch_distances()[guide].skin > SwitchDistance::ONE_SIDED);
+        assert!(first.one_sided().all(|i| i != guide));
+        // 2. Where it touches, by bisection.
+        let (mut off, mut on) = (0.0, 1.0);
+        for _ in 0..45 {
+            let middle = 0.5 * (off + on);
+            if depth(guide, node, shift * middle).unwrap() > 0.0 {
+                off = middle;
+            } else {
+                on = middle;
+            }
+        }
+        let touching = rooted(guide, shift * off).unwrap();
+        let distance = touching.switch_distances()[guide];
+        assert!(distance.is_one_sided(), "{distance:?}");
+        assert!(touching.one_sided().any(|i| i == guide));
+        // 3. Its derivatives are others on the two sides: skin is firm as soon as it is touched.
+        let moves = |side: f64| {
+            let at = rooted(guide, shift * off + shift.normalize() * (side * 1e-6)).unwrap();
+            let mut guides = vec![ParameterChange::default(); hairstyle.guides.len()];
+            let elements = at.shapes().nth(guide).unwrap().controls.len();
+            guides[guide].natural_strain = vec![DVec3::new(1.0, 1.0, 0.0); elements];
+            let change = HeadChange { guides, ..HeadChange::default() };
+            at.jvp(&change).unwrap()[guide].positions.clone()
+        };
+        let (before, after) = (moves(-1.0), moves(1.0));
+        let gap: Vec<DVec3> = before.iter().zip(&after).map(|(a, b)| *a - *b).collect();
+        let [gap, size] = [&gap, &before].map(|x| product(x, x).sqrt());
+        assert!(gap > 1e-3 * size, "{gap} of {size}");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::super::wisp::{
 };
 use super::hessian::{Controls, JointHessian};
 use super::others::Others;
-use crate::contact::{Density, FrictionGap, Layer, Pull};
+use crate::contact::{Density, FrictionGap, Layer, Pull, SwitchDistance};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -204,6 +204,14 @@ impl<'a> HeadState<'a> {
     pub(super) fn sensitivities(&self) -> Result<Vec<Sensitivity>, (usize, DerivativeError)> {
         parallel::try_map(self.wisps.len(), |i| {
             self.wisps[i].sensitivity(&*self.others.around(i)).map_err(|error| (i, error))
+        })
+    }
+
+    /// How near each guide is to where contact begins or ends.
+    pub(super) fn switch_distances(&self) -> Vec<SwitchDistance> {
+        parallel::map(self.wisps.len(), |i| {
+            let alone = self.wisps[i].switch_distance();
+            SwitchDistance { hair: alone.hair.min(self.others.switch_distance(i)), ..alone }
         })
     }
 
