@@ -238,6 +238,26 @@ def test_values_that_are_too_deep_are_refused_by_name() -> None:
     assert scene.to_dict() == {"hair": {"type": "wavy"}}
 
 
+def test_shared_lists_of_more_values_than_memory_has_are_refused_by_name() -> None:
+    lists: list[Any] = [1]
+    tables: dict[str, Any] = {"a": 1}
+    for _ in range(40):
+        lists = [lists, lists]
+        tables = {"a": tables, "b": tables}
+    scene = frisure.Scene({"hair": {"type": "wavy"}})
+    texts = ["x" * 1_000_000] * 2000
+    for wrong in (lists, tables, texts, np.broadcast_to(0, (10**12,)), [0] * 1_000_001):
+        with pytest.raises(frisure.ArgumentError, match="more than 1000000 values"):
+            frisure.Scene({"hair": wrong})
+        with pytest.raises(frisure.ArgumentError, match="hair.*more than 1000000 values"):
+            scene["hair"] = wrong
+        with pytest.raises(frisure.ArgumentError, match="cut.*more than 1000000 values"):
+            scene.with_step("cut", wrong)
+    with pytest.raises(frisure.ArgumentError, match="spec.*more than 1000000 values"):
+        frisure.batch({"samples": 1, "vary": {"a": lists}})
+    assert scene.to_dict() == {"hair": {"type": "wavy"}}
+
+
 def test_every_wrong_type_is_an_error_of_the_package() -> None:
     scene = frisure.Scene({})
     wrong: list[tuple[Any, str]] = [
