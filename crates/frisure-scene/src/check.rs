@@ -25,6 +25,18 @@ const WIDEST_ELEMENT: f64 = FRAC_PI_2;
 /// Lengths of one hair (m). Chosen: beyond, a unit was mistaken; the smallest and largest numbers leave their range as squares and cubes.
 const ONE_HAIR: Range = Range::new("hair.length", 1e-6, 100.0, "between 1 um and 100 m");
 
+/// The numbers of a scene whose range is the same for one hair and for a head; [`Rod`] checks the others.
+const NUMBERS_OF_ONE_HAIR: [&str; 8] = [
+    "equilibrium.tolerance",
+    "gravity",
+    "pose.pitch",
+    "pose.roll",
+    "wind.speed",
+    "wind.azimuth",
+    "wind.elevation",
+    "wind.exposure",
+];
+
 impl Scene {
     /// The whole head of hair that the scene describes, with every number in range.
     ///
@@ -114,8 +126,12 @@ impl Scene {
     fn check_one_hair(&self) -> Result<(), SceneError> {
         let spec = &self.spec;
         ONE_HAIR.check(spec.length.mean).map_err(|e| self.spec_error(&e))?;
-        let tolerance = number("equilibrium.tolerance").expect("it is a number of a head");
-        tolerance.range.check(spec.equilibrium.tolerance).map_err(|e| self.spec_error(&e))
+        for key in NUMBERS_OF_ONE_HAIR {
+            let number = number(key).expect("it is a number of a head");
+            let value = number.get(spec).expect("it has a field of its own");
+            number.range.check(value).map_err(|e| self.spec_error(&e))?;
+        }
+        Ok(())
     }
 
     /// The error about the value of `key`, such as a mesh at `head.mesh` that is no head; `hint` may be empty.

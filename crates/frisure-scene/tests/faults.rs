@@ -498,6 +498,10 @@ fn one_hair_has_ranges_of_its_own() {
         ("hair.length = 5e-324", "hair.length", "between 1 um and 100 m"),
         ("hair.length = 1e300", "hair.length", "between 1 um and 100 m"),
         ("equilibrium.tolerance = 0", "equilibrium.tolerance", "between 1e-8 and 0.1"),
+        ("gravity = -1", "gravity", "between 0 and 1000 m/s²"),
+        ("gravity = 1e6", "gravity", "between 0 and 1000 m/s²"),
+        ("wind.speed = 100", "wind.speed", "between 0 and 60 m/s"),
+        ("pose.pitch = 4", "pose.pitch", "between -180 and 180 deg"),
     ] {
         let error = parse(text).unwrap().single_hair().unwrap_err();
         let found = error.diagnostic().unwrap();
