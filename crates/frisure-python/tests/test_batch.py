@@ -98,6 +98,11 @@ def test_the_wrong_number_of_a_range_is_named_at_its_place() -> None:
     itself["a"] = itself
     with pytest.raises(frisure.ArgumentError, match="vary.*more than 64 dicts and lists"):
         frisure.batch({"samples": 1, "vary": itself})
+    lists: list[Any] = [1]
+    for _ in range(40):
+        lists = [lists, lists]
+    with pytest.raises(frisure.ArgumentError, match="spec.*more than 1000000 values"):
+        frisure.batch({"samples": 1, "vary": {"a": lists}})
 
 
 def test_an_exception_of_progress_ends_the_batch_and_wrong_arguments_are_named(

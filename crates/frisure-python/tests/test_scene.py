@@ -253,8 +253,6 @@ def test_shared_lists_of_more_values_than_memory_has_are_refused_by_name() -> No
             scene["hair"] = wrong
         with pytest.raises(frisure.ArgumentError, match="cut.*more than 1000000 values"):
             scene.with_step("cut", wrong)
-    with pytest.raises(frisure.ArgumentError, match="spec.*more than 1000000 values"):
-        frisure.batch({"samples": 1, "vary": {"a": lists}})
     assert scene.to_dict() == {"hair": {"type": "wavy"}}
 
 
