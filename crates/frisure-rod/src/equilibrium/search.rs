@@ -216,21 +216,20 @@ impl Search<'_> {
     /// Elements that resolve the rod, and of its natural strain what could decide to which side it falls.
     fn resolving_elements(&self) -> usize {
         let most = self.most_elements() / 4;
-        let mut elements = self.kind.resolving_elements(self.rod);
-        while 2 * elements <= most && self.left_out(elements) > IMPERFECTION * self.rod.length() {
-            elements *= 2;
-        }
-        elements
+        self.doubled(self.kind.resolving_elements(self.rod), most, IMPERFECTION)
     }
 
     /// Elements, up to `most`, with which the branch is followed again where it came near a loss of stability with `few`.
     fn elements_near_a_loss(&self, few: usize, most: usize) -> usize {
-        let mut elements = DIVIDED_NEAR_A_LOSS * few;
-        let least = DECISIVE * self.rod.length();
-        while 2 * elements <= most && self.left_out(elements) > least {
+        self.doubled(DIVIDED_NEAR_A_LOSS * few, most, DECISIVE).min(most)
+    }
+
+    /// Elements, doubled as long as there are not more than `most` and they leave out more than a share of the length.
+    fn doubled(&self, mut elements: usize, most: usize, share: f64) -> usize {
+        while 2 * elements <= most && self.left_out(elements) > share * self.rod.length() {
             elements *= 2;
         }
-        elements.min(most)
+        elements
     }
 
     /// What extrapolation leaves (m) of the natural strain that varies within the halves of so many elements and of twice as many.
