@@ -57,6 +57,11 @@ pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "note: {}", plain(text));
 }
 
+/// Writes lines of warnings to standard error, where there are any.
+pub(crate) fn warn(lines: &str) {
+    let _ = write!(io::stderr().lock(), "{lines}");
+}
+
 /// Writes why a command failed to standard error, if that is open.
 pub(crate) fn show_error(error: &Error) {
     // Removes colours where they are not wanted: in files, with NO_COLOR.

@@ -58,7 +58,7 @@ pub fn plain(error: &Error) -> String {
 
 fn rendered(error: &Error, renderer: &Renderer) -> String {
     let diagnostic = if let Error::Scene(error) = error { error.diagnostic() } else { None };
-    let message = diagnostic.map_or_else(|| message(error), Diagnostic::message);
+    let message = shortened(&diagnostic.map_or_else(|| message(error), Diagnostic::message));
     // A scene without a name is that of a command's arguments, and has no lines to show.
     let excerpt = diagnostic.filter(|found| !found.file.is_empty()).map(Excerpt::of);
     let mut group = Group::with_title(Level::ERROR.primary_title(message.as_str()));
@@ -72,9 +72,9 @@ fn rendered(error: &Error, renderer: &Renderer) -> String {
         let snippet = snippet.path(diagnostic.file.as_str());
         group = group.element(snippet.annotations(annotations));
     }
-    let hint = diagnostic.map_or(error.hint(), |diagnostic| &diagnostic.hint);
+    let hint = shortened(diagnostic.map_or(error.hint(), |diagnostic| &diagnostic.hint));
     if !hint.is_empty() {
-        group = group.element(Level::HELP.message(hint));
+        group = group.element(Level::HELP.message(hint.as_str()));
     }
     let renderer = renderer.clone().decor_style(DecorStyle::Unicode).term_width(10_000);
     renderer.render(&[group])
@@ -94,6 +94,15 @@ const LONGEST_PLACE: usize = 1000;
 
 /// Characters shown of a place that is longer, or in a longer line. Chosen: two lines of a terminal.
 const SHOWN: usize = 200;
+
+/// The text with the beginning of each word that is longer than a path: tables, grooms and arguments are quoted as they are.
+fn shortened(text: &str) -> String {
+    let short = |word: &str| match word.len() > LONGEST_PLACE {
+        true => word.chars().take(SHOWN).chain("…".chars()).chain(word.chars().last()).collect(),
+        false => word.to_owned(),
+    };
+    text.split_inclusive(char::is_whitespace).map(short).collect()
+}
 
 impl<'a> Excerpt<'a> {
     fn of(diagnostic: &'a Diagnostic) -> Self {

@@ -260,6 +260,26 @@ fn check_groom_within(path: &Path, size: u64, available: Option<u64>) -> Result<
     Err(Error::invalid(problem, "write it with fewer hairs or points where it was made"))
 }
 
+/// A point of a hair that was read, in a preview with its pieces (bytes): the most that was measured for [`PREVIEWED_POINT`].
+const PREVIEWED_GROOM_POINT: f64 = 220.0;
+
+/// Checks that a picture of hair of so many points, which is in memory already, has room beside it.
+///
+/// # Errors
+/// [`Error::Invalid`], with both numbers.
+pub fn check_drawn(points: usize, work: Work) -> Result<(), Error> {
+    check_within(|work| drawn(points, work), 0.0, work, available())
+}
+
+/// Memory of a picture of hair of so many points, beside that hair (bytes).
+fn drawn(points: usize, work: Work) -> f64 {
+    let each = match work {
+        Work::Preview(_) => PREVIEWED_GROOM_POINT,
+        work => point(work),
+    };
+    points as f64 * each + picture(work)
+}
+
 /// A point of one hair in JSON (bytes). Measured with a million: 287, and 450 of addresses, because a text that grows is twice as long.
 pub const PRINTED_POINT: f64 = 450.0;
 

@@ -171,6 +171,9 @@ fn elsewhere(name: &str, root: &Value, here: Option<(usize, &str)>) -> Option<St
         (_, Some((known, _))) if known <= distance => None,
         // Many tables have such a key, or one is a little like it.
         _ if found.len() > 3 => None,
+        (0, _) if paths.iter().any(|path| path == near) => {
+            Some(format!("`{near}` is a key of the scene itself: write it above the first table"))
+        }
         (0, _) => Some(format!("there is a {}", found.join(", a "))),
         // Two letters wrong in another table is another word.
         (2.., _) => None,

@@ -23,6 +23,14 @@ fn faults_name_place_value_range_and_hint() {
         ("[hare]", 1, 2, "hare", "", &["did you mean `hair`?"]),
         ("length = 1", 1, 1, "length", "", &["there is a `hair.length`"]),
         (
+            "[equilibrium]\ngravity = 9.81",
+            2,
+            1,
+            "equilibrium.gravity",
+            "",
+            &["`gravity` is a key of the scene itself", "above the first table"],
+        ),
+        (
             "[hair.fibre]\nyoung = 1",
             2,
             1,

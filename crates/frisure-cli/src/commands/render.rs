@@ -123,7 +123,7 @@ impl GroomPicture<'_> {
         };
         let scene = with_view(pictured, look);
         Format::of(&pictured.output).map_err(|e| Error::because(&e, ""))?;
-        let pixels = scene.output.width * scene.output.height;
+        let work = self.work(&scene);
         let paths = views.paths(&pictured.output);
         let mut inputs = input_files(&scene);
         inputs.push(&pictured.scene);
@@ -131,11 +131,11 @@ impl GroomPicture<'_> {
         match quality {
             Quality::Final => {
                 tracing.options(&scene).check().map_err(|e| Error::because(&e, ""))?;
-                memory::check_picture(Work::Traced(pixels))?;
+                memory::check_picture(work)?;
                 pictures::prepare(&paths, &[], &inputs)?;
             }
             Quality::Preview => {
-                memory::check_picture(Work::Preview(pixels))?;
+                memory::check_picture(work)?;
                 let paths: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
                 pictures::prepare(&[], &paths, &inputs)?;
             }
@@ -151,6 +151,14 @@ impl GroomPicture<'_> {
         Ok(ExitStatus::Success)
     }
 
+    fn work(&self, scene: &Scene) -> Work {
+        let pixels = scene.output.width * scene.output.height;
+        match self.quality {
+            Quality::Final => Work::Traced(pixels),
+            Quality::Preview => Work::Preview(pixels),
+        }
+    }
+
     /// Writes the pictures with the look of a scene; with the scene's head if the scene was given. Returns a line about each.
     fn write(&self, scene: &Scene, progress: &Bar) -> Result<Vec<String>, Error> {
         let Self { pictured, views, quality, tracing } = self;
@@ -158,6 +166,7 @@ impl GroomPicture<'_> {
         let environment = environment_map(scene, &files)?;
         let filter = noise_filter(tracing.denoise)?;
         let strands = strands(path, pictured.axes)?;
+        memory::check_drawn(strands.points().len(), self.work(scene))?;
         let head = pictured.look.as_ref().map(|_| HeadCache::default().load(scene, &files));
         let head = head.transpose()?.map(|loaded| loaded.head);
         let subject = Subject {

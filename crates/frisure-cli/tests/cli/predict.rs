@@ -95,7 +95,7 @@ fn a_missed_accuracy_is_counted_and_has_an_exit_code_of_its_own() {
     let (ran, missed) = run("1e-15");
     assert_eq!((ran.code, missed), (Some(4), 6.into()), "{}", ran.err);
     assert!(
-        ran.out.contains("6 of 6 guides at rest, 6 less accurate than requested"),
+        ran.out.contains("6 of 6 guides at rest, 6 less accurate than 1e-12 mm"),
         "{}",
         ran.out
     );

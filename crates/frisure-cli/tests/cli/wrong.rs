@@ -205,12 +205,49 @@ fn a_file_beyond_the_limit_is_an_error_and_leaves_nothing() {
 }
 
 #[cfg(target_os = "linux")]
+/// A `.hair` file of straight hairs of 20 cm, of so many points each.
+fn straight_groom(hairs: u32, points: u32) -> Vec<u8> {
+    let mut bytes = b"HAIR".to_vec();
+    // With points and nothing else for each of them (bit 1).
+    for number in [hairs, hairs * points, 2, points - 1] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.resize(128, 0);
+    for hair in 0..hairs {
+        for point in 0..points {
+            let across = f64::from(hair) / f64::from(hairs) - 0.5;
+            let down = f64::from(point) / f64::from(points - 1);
+            for x in [0.2 * across, 0.0, 1.7 - 0.2 * down] {
+                bytes.extend((x as f32).to_le_bytes());
+            }
+        }
+    }
+    bytes
+}
+
+#[test]
+fn a_long_word_of_a_file_or_an_argument_is_quoted_in_part() {
+    let long = "x".repeat(1_000_000);
+    let room = room().with("a.obj", format!("v 0 0 0\nl {long}\n"));
+    let room = room.with("a.csv", format!("diameter (um)\n{long}\n"));
+    for arguments in [
+        &["convert", "a.obj", "-o", "b.ply"][..],
+        &["measured", "a.csv"],
+        &["convert", &long[..9000]],
+    ] {
+        let ran = room.run(arguments);
+        assert_eq!(ran.code, Some(2), "{}", ran.err);
+        assert!(ran.err.len() < 1000, "{} bytes", ran.err.len());
+    }
+}
+
 #[test]
 fn what_has_no_room_in_memory_is_refused_before_the_work() {
     let large = format!("{QUICK}width = 16384\nheight = 16384\n");
     let large = large.replacen("width = 32\nheight = 32\n", "", 1);
     let kinky = "hair.type = \"african-kinky\"\n[head]\nmodel = \"african-woman\"\n";
     let room = room().with("a.toml", large).with("quick.toml", QUICK).with("k.toml", kinky);
+    let room = room.with("many.hair", straight_groom(20_000, 100));
     for (limit, arguments, code) in [
         // These went on for seconds, and were ended by the system.
         (2_000_000, "predict k.toml --image a.png", 2),
@@ -218,6 +255,10 @@ fn what_has_no_room_in_memory_is_refused_before_the_work() {
         (4_000_000, "predict a.toml --image a.png", 2),
         (4_000_000, "render quick.toml --size 8192x8192 -o a.png", 2),
         (4_000_000, "predict quick.toml --image a.png", 0),
+        // These are read, and the picture is what has no room.
+        (600_000, "render many.hair --paths 1 --size 64x64 -o a.png", 2),
+        (500_000, "view many.hair --size 64x64 -o a.png", 2),
+        (4_000_000, "view many.hair --size 64x64 -o a.png", 0),
     ] {
         let program = env!("CARGO_BIN_EXE_frisure");
         let line = format!("ulimit -v {limit}; exec {program} --threads 2 {arguments}");

@@ -78,6 +78,7 @@ fn unknown(name: &str, table: &str, known: Vec<&'static str>) -> NoKey {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, true) => format!("{of} has no keys in it"),
         (None, false) => match elsewhere() {
+            Some(path) if path == name => format!("`{name}` is a key of the scene itself"),
             Some(path) => format!("there is a `{path}`"),
             None => format!("known keys: {}", known.join(", ")),
         },

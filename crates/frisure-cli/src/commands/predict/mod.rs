@@ -28,7 +28,7 @@ use crate::progress::Bar;
 use crate::{console, grooms, hair_checkpoint, interrupt};
 
 use files::StageFiles;
-use summary::summary;
+use summary::{buried, summary};
 
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: &Predict, quiet: bool) -> Result<ExitStatus, Error> {
@@ -61,7 +61,9 @@ pub(crate) fn run_scene(
     let written = prediction.execute(&Arc::new(scene), &files);
     drop(prediction);
     let Written { report, note, lines } = written?;
-    if !quiet {
+    if quiet {
+        console::warn(&buried(&report, &spec));
+    } else {
         console::say(&summary(&report, &spec, note.as_deref(), &lines))?;
     }
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.

@@ -47,8 +47,11 @@ pub(super) fn summary(
     if guides.not_converged > 0 {
         let _ = write!(out, ", {} not converged", guides.not_converged);
     }
-    if guides.accuracy_missed > 0 {
-        let _ = write!(out, ", {} less accurate than requested", guides.accuracy_missed);
+    if let (1.., Resolution::Accuracy(accuracy)) =
+        (guides.accuracy_missed, spec.equilibrium.resolution)
+    {
+        let _ =
+            write!(out, ", {} less accurate than {:?} mm", guides.accuracy_missed, 1e3 * accuracy);
     }
     let buried = buried(report, spec);
     let replicas = guides.replicas.as_ref().map(replicas_line).unwrap_or_default();
@@ -165,7 +168,7 @@ fn wet_line(locks: &WetLockReport) -> String {
 }
 
 /// A warning of hair inside the head, if there is some.
-fn buried(report: &HairstyleReport, spec: &HairstyleSpec) -> String {
+pub(super) fn buried(report: &HairstyleReport, spec: &HairstyleSpec) -> String {
     let depth = report.guides.penetration.max(report.hair_penetration.unwrap_or(0.0));
     if depth <= DEEP {
         return String::new();
