@@ -111,6 +111,12 @@ impl Exercise {
         self.version
     }
 
+    /// How near to its goal hair was when it was measured last; `None` before.
+    #[must_use]
+    pub fn last_nearness(&self) -> Option<Nearness> {
+        self.measured.map(|(_, nearness)| nearness)
+    }
+
     /// How near to the goal hair is; `None` until the goal is computed, and for hair of other roots.
     pub(super) fn nearness(&self, hair: &Preview) -> Option<Nearness> {
         let [Some(start), Some(goal)] = &self.hair else { return None };

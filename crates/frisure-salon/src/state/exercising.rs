@@ -119,6 +119,12 @@ impl Salon {
         }
     }
 
+    /// Whether a solution is shown, whose next step comes with time and not with an event.
+    #[must_use]
+    pub fn shows_solution(&self) -> bool {
+        self.exercise.as_ref().is_some_and(|exercise| exercise.replay.is_some())
+    }
+
     /// Shows the next step of the solution, when the hair of the last one has been at rest for a moment.
     pub(super) fn advance_replay(&mut self, now: f64) {
         let settled = self.is_settled();

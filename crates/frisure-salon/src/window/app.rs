@@ -344,6 +344,18 @@ impl App {
         let (badge, _) = overlay::badge(&self.salon, self.viewport.is_moving());
         let hair = self.salon.preview().map(|(hair, _)| hair);
         let numbers = hair.map(|hair| &hair.numbers);
+        let exercise = self.salon.exercise.as_ref().map(|exercise| {
+            serde_json::json!({
+                "title": exercise.title,
+                "goal": exercise.goal().is_some(),
+                "shows": self.salon.shows_solution(),
+                "done": exercise.last_nearness().map(|nearness| nearness.done),
+            })
+        });
+        let tour =
+            self.salon.tour.as_ref().map(
+                |tour| serde_json::json!({ "at": tour.at, "done": self.salon.is_step_done() }),
+            );
         serde_json::json!({
             "gallery": self.salon.is_gallery(),
             "name": document.map(Document::name),
@@ -360,6 +372,8 @@ impl App {
             "tips": numbers.map(|n| n.tips),
             "held": hair.and_then(|hair| hair.adoption.as_ref()).map(ToString::to_string),
             "background": self.salon.background().is_some(),
+            "exercise": exercise,
+            "tour": tour,
             "messages": self.salon.messages.iter().map(|m| m.text.clone()).collect::<Vec<_>>(),
         })
         .to_string()
@@ -369,7 +383,7 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.process_events();
-        if self.salon.is_busy() {
+        if self.salon.is_busy() || self.salon.shows_solution() {
             ctx.request_repaint_after(Duration::from_millis(200));
         }
     }

@@ -1,6 +1,8 @@
 //! Chromium without a window, driven through a pipe: its DevTools protocol, one line of JSON each
 //! way, needs nothing but the browser.
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -182,8 +184,26 @@ impl Chromium {
         self.mouse("mouseReleased", to[0], to[1], 0);
     }
 
+    /// Turns the wheel there: what is below comes up.
+    pub(crate) fn scroll(&mut self, [x, y]: [f64; 2], down: f64) {
+        self.mouse("mouseMoved", x, y, 0);
+        let event = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": down });
+        self.call("Input.dispatchMouseEvent", &event);
+    }
+
     fn mouse(&mut self, kind: &str, x: f64, y: f64, buttons: u32) {
         self.call("Input.dispatchMouseEvent", &left(kind, x, y, buttons));
+    }
+
+    /// Presses a key, by its name and code in the DOM.
+    pub(crate) fn key(&mut self, key: &str, code: &str) {
+        for kind in ["keyDown", "keyUp"] {
+            let mut event = json!({ "type": kind, "key": key, "code": code });
+            if kind == "keyDown" && key.len() == 1 {
+                event["text"] = json!(key);
+            }
+            self.call("Input.dispatchKeyEvent", &event);
+        }
     }
 
     /// Drops a file with these bytes on the middle of the page.
@@ -215,7 +235,7 @@ impl Chromium {
     /// What is seen now, as the bytes of a PNG.
     pub(crate) fn screenshot(&mut self) -> Vec<u8> {
         let reply = self.call("Page.captureScreenshot", &json!({ "format": "png" }));
-        from_base64(reply["data"].as_str().expect("a picture"))
+        BASE64_STANDARD.decode(reply["data"].as_str().expect("a picture")).expect("base64")
     }
 
     /// Calls a method of the protocol.
@@ -335,23 +355,4 @@ fn messages(pipe: impl std::io::Read + Send + 'static) -> Receiver<Value> {
         }
     });
     receive
-}
-
-/// RFC 4648, section 4.
-fn from_base64(text: &str) -> Vec<u8> {
-    let sixth = |c: u8| match c {
-        b'A'..=b'Z' => Some(u32::from(c - b'A')),
-        b'a'..=b'z' => Some(u32::from(c - b'a') + 26),
-        b'0'..=b'9' => Some(u32::from(c - b'0') + 52),
-        b'+' => Some(62),
-        b'/' => Some(63),
-        _ => None,
-    };
-    let sixths: Vec<u32> = text.bytes().filter_map(sixth).collect();
-    let mut bytes = Vec::with_capacity(sixths.len() * 3 / 4);
-    for group in sixths.chunks(4) {
-        let word = group.iter().enumerate().fold(0, |word, (i, s)| word | s << (18 - 6 * i));
-        bytes.extend(&word.to_be_bytes()[1..group.len()]);
-    }
-    bytes
 }

@@ -11,6 +11,7 @@
 
 mod chromium;
 mod failures;
+mod lessons;
 mod picture;
 mod salon;
 mod session;
