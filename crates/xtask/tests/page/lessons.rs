@@ -101,7 +101,7 @@ fn few(scene: &str) -> String {
     format!("{}24\npoints = 10{}", &scene[..value], &scene[end..])
 }
 
-/// The code of a scene for the address of the page, as docs/page.md has it.
+/// The code of a scene for the address of the page, as `docs/page.md` has it.
 fn code(scene: &str) -> String {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(scene.as_bytes()).expect("written to memory");
