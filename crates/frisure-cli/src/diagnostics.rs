@@ -98,7 +98,10 @@ const SHOWN: usize = 200;
 /// The text with the beginning of each word that is longer than a path: tables, grooms and arguments are quoted as they are.
 fn shortened(text: &str) -> String {
     let short = |word: &str| match word.len() > LONGEST_PLACE {
-        true => word.chars().take(SHOWN).chain("…".chars()).chain(word.chars().last()).collect(),
+        true => {
+            let space = word.chars().last().filter(|c| c.is_whitespace());
+            word.chars().take(SHOWN).chain(['…']).chain(space).collect()
+        }
         false => word.to_owned(),
     };
     text.split_inclusive(char::is_whitespace).map(short).collect()
