@@ -19,6 +19,8 @@ pub struct Material {
     pub scatters: bool,
     /// The normal of the surface, where it is known better than from the mesh.
     pub normal: Option<Vec3>,
+    /// The place (m) of the surface, where it is known better than from the mesh.
+    pub place: Option<Vec3>,
 }
 
 /// Roughness of the coat of skin (α of GGX); chosen by eye.
@@ -42,11 +44,15 @@ const IRIS: f32 = 0.44;
 
 /// Heights above the gaze, in radii of the ball, from which on the upper lid darkens it, and where it does so most; and by how much. Chosen by eye.
 const UNDER_LID: [f32; 2] = [0.10, 0.40];
-const LID_SHADE: f32 = 0.5;
+const LID_SHADE: f32 = 0.6;
 
 /// Radius of the ball over that of the cornea: 12 over 7.8 mm.
 const CORNEA: f32 = 1.54;
 const PUPIL: f32 = 0.15;
+
+/// How far (radii of the ball) before the cornea the light is taken that falls on it: the lids of the built-in heads are thicker at their edge than those of people,
+/// and would hide every lamp above the eyes. Chosen by eye.
+const LIDS: f32 = 0.17;
 
 /// Scales of the relief of skin (m), and the root mean square of the slope of each. The furrows of skin are 0.3 to 1 mm apart and slope by 0.1 to 0.3 in profiles;
 /// the finest are left to the roughness. Chosen by eye among those.
@@ -95,6 +101,7 @@ pub fn material(
         roughness: SKIN_ROUGHNESS,
         scatters: true,
         normal: None,
+        place: None,
     };
     let normal = normal.filter(|_| look.texture > 0.0);
     if tint.garment > 0.5 {
@@ -208,6 +215,10 @@ fn eyeball(eye: &Eye, p: DVec3, look: &SkinLook) -> Material {
     // The cornea bulges: over the iris its normal turns by the ratio of the radii faster.
     let steep = sine * (CORNEA + (1.0 - CORNEA) * smooth(IRIS - 0.02, IRIS + 0.08));
     let normal = gaze * (1.0 - steep * steep).max(0.0).sqrt() + across.normalize_or_zero() * steep;
+    let place = (out.dot(gaze) > 0.0 && sine < IRIS).then(|| {
+        (eye.centre + eye.radius * (gaze * (cornea_height(sine) + LIDS) + across).as_dvec3())
+            .as_vec3()
+    });
     Material {
         colour,
         // A refractive index of 1.376 of the cornea: 2.5 % at normal incidence.
@@ -219,14 +230,22 @@ fn eyeball(eye: &Eye, p: DVec3, look: &SkinLook) -> Material {
         } else {
             out.normalize_or(gaze)
         }),
+        place,
     }
+}
+
+/// How far along the gaze the cornea stands before the middle of the ball, `sine` beside the gaze (radii of the ball): a cap of
+/// its own radius on the edge of the iris.
+fn cornea_height(sine: f32) -> f32 {
+    let sagitta = |at: f32| (1.0 / (CORNEA * CORNEA) - at * at).max(0.0).sqrt();
+    (1.0 - IRIS * IRIS).sqrt() + sagitta(sine) - sagitta(IRIS)
 }
 
 /// The material of an accessory.
 #[must_use]
 pub fn accessory_material(of: &AccessoryMaterial) -> Material {
     let AccessoryMaterial { colour, gloss, roughness, .. } = *of;
-    Material { colour: colour.into(), gloss, roughness, scatters: false, normal: None }
+    Material { colour: colour.into(), gloss, roughness, scatters: false, normal: None, place: None }
 }
 
 #[cfg(test)]
@@ -271,6 +290,19 @@ mod tests {
         assert!((normal(0.3).0 - 0.3 * CORNEA).abs() < 1e-3);
         assert!((normal(0.7).0 - 0.7).abs() < 1e-3);
         assert!((0..20).all(|i| (normal(0.05 * f64::from(i)).1 - 1.0).abs() < 1e-5));
+    }
+
+    #[test]
+    fn a_cornea_is_a_cap_on_the_edge_of_the_iris() {
+        let ball = |sine: f32| (1.0 - sine * sine).sqrt();
+        assert!((cornea_height(IRIS) - ball(IRIS)).abs() < 1e-6);
+        // Sagittae of an iris of 5.3 mm on balls of 7.8 and 12 mm: 2.08 and 1.23 mm.
+        let bulge = 12.0 * (cornea_height(0.0) - ball(0.0));
+        assert!((bulge - (2.08 - 1.23)).abs() < 0.02, "{bulge}");
+        // Its slope is that of a sphere of 7.8 mm.
+        let slope = (cornea_height(0.31) - cornea_height(0.29)) / 0.02;
+        let sine = 0.3 * CORNEA;
+        assert!((slope + sine / (1.0 - sine * sine).sqrt()).abs() < 1e-2, "{slope}");
     }
 
     #[test]

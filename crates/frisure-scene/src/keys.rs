@@ -578,7 +578,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// How far the main lamp stands above the horizon; {}.
         "light.elevation" => number::<Angle>().range(-FRAC_PI_2, FRAC_PI_2, "between -90 and 90 deg");
         /// How large the main lamp is, as the angle from edge to edge under which the head sees it: a larger
-        /// one is softer. {}; the studio's are 34 deg, the sun 0.5 deg.
+        /// one is softer. {}; the studio's is 23 deg, the sun 0.5 deg.
         "light.size" => number::<Angle>().range(0.0, 170.0 * DEG + 1e-9, "between 0 and 170 deg");
         /// Factor on the strength of all lamps; {}. Default 1.
         "light.strength" => number::<Ratio>().range(0.0, 100.0, "between 0 and 100")

@@ -92,9 +92,9 @@ impl NaturalLook {
     pub fn skin(&self) -> SkinLook {
         // Eyes are dark where hair is; light hair goes with grey-blue ones more often than not. Chosen.
         let iris = match self.colour.melanin.eumelanin {
-            dark if dark >= 0.7 => rgb(0x5a, 0x3b, 0x24),
-            medium if medium >= 0.3 => rgb(0x6f, 0x62, 0x44),
-            _ => rgb(0x6a, 0x82, 0x98),
+            dark if dark >= 0.7 => rgb(0x3f, 0x2a, 0x1b),
+            medium if medium >= 0.3 => rgb(0x4d, 0x42, 0x2d),
+            _ => rgb(0x4c, 0x5e, 0x70),
         };
         SkinLook {
             colour: linear_from_srgb(self.skin),

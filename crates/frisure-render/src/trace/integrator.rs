@@ -260,11 +260,14 @@ impl Integrator {
         let bsdf = match (&intersection, material) {
             (Intersection::Hit(Hit::Skin(hit)), Some(material)) => {
                 let outside = hit.normal.dot(direction) < 0.0;
+                let hit = &SkinHit { position: material.place.unwrap_or(hit.position), ..*hit };
                 let deep = self.skin.scatter > 0.0 && material.scatters;
                 if deep && outside && bounce < SCATTERED_BOUNCES {
                     return self.scattered(hit, &material, direction, sampler);
                 }
-                Bsdf::Surface(skin_bsdf(hit, &material, -direction))
+                let bsdf = Bsdf::Surface(skin_bsdf(hit, &material, -direction));
+                let intersection = Intersection::Hit(Hit::Skin(*hit));
+                return Some(Seen { intersection, bsdf, weight: Vec3::ONE });
             }
             (Intersection::Hit(Hit::Hair(hit)), _) => self.hair_bsdf(hit, direction),
             _ => {
