@@ -4,7 +4,6 @@ use frisure::progress::{Cancelled, Progress, StageCounter};
 use frisure::rod::batch::{Batch, BatchSolution, Precision, RodSolution};
 use frisure::rod::{Rod, Stability};
 use frisure_engine::Error;
-use glam::DVec3;
 use numpy::{PyArray1, PyArray3, PyArray4, PyArrayMethods};
 use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -113,19 +112,22 @@ impl Options {
         (CHUNK_ELEMENTS / self.elements).clamp(CHUNK.0, CHUNK.1)
     }
 
+    fn batch(&self) -> Batch {
+        Batch {
+            elements: self.elements,
+            tolerance: self.tolerance,
+            precision: if self.single { Precision::Single } else { Precision::Double },
+            ..Batch::default()
+        }
+    }
+
     fn solve_chunk(&self, rods: &[Rod], mut rest: ChunkOfRest<'_>) {
         let found = self.rest_chunk(rods, &mut rest);
         *rest.found = self.derivatives.then_some(found);
     }
 
     fn rest_chunk(&self, rods: &[Rod], rest: &mut ChunkOfRest<'_>) -> BatchSolution {
-        let batch = Batch {
-            elements: self.elements,
-            tolerance: self.tolerance,
-            precision: if self.single { Precision::Single } else { Precision::Double },
-            ..Batch::default()
-        };
-        let found = batch.solve(rods);
+        let found = self.batch().solve(rods);
         for (i, rod) in found.rods.iter().enumerate() {
             rest.energy[i] = rod.energy;
             rest.stable[i] = rod.stability == Stability::Stable;
@@ -135,46 +137,42 @@ impl Options {
         if self.eigenvalue {
             rest.eigenvalue.copy_from_slice(&found.min_eigenvalues(rods));
         }
-        let positions = self.put_nodes(rods, &found, rest);
+        self.put_nodes(rods, &found, rest);
         if self.error {
-            let nodes = self.elements + 1;
-            let half = Batch { elements: self.elements / 2, ..batch };
-            let coarse = half.solve(rods).positions(rods);
-            let fine = positions.chunks_exact(nodes);
-            let both = fine.zip(coarse.chunks_exact(half.elements + 1));
-            for (error, (fine, coarse)) in rest.error.iter_mut().zip(both) {
-                let gaps = coarse.iter().zip(fine.iter().step_by(2));
-                // The first term of the error of jointed elements, which is of second order in their length
-                // (docs/theory.md, "Extrapolation, accuracy and the estimate of error").
-                *error = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
-            }
+            self.estimate_error(rods, &found, rest);
         }
         found
     }
 
-    /// Puts the nodes and their frames in their places, as far as they are wanted. The positions of the nodes (m), if anything is made of
-    /// them.
-    fn put_nodes(
-        &self,
-        rods: &[Rod],
-        found: &BatchSolution,
-        rest: &mut ChunkOfRest<'_>,
-    ) -> Vec<DVec3> {
-        let positions: Vec<DVec3> = if self.frames {
+    /// Puts the nodes and their frames in their places, as far as they are wanted.
+    fn put_nodes(&self, rods: &[Rod], found: &BatchSolution, rest: &mut ChunkOfRest<'_>) {
+        let (points, _) = rest.points.as_chunks_mut();
+        if self.frames {
+            let (frames, _) = rest.frames.as_chunks_mut();
             let nodes = found.nodes(rods);
-            for (place, (_, frame)) in rest.frames.chunks_exact_mut(9).zip(&nodes) {
-                place.copy_from_slice(&frame.to_cols_array());
+            for ((_, frame), place) in nodes.iter().zip(frames) {
+                *place = frame.to_cols_array();
             }
-            nodes.iter().map(|(position, _)| *position).collect()
-        } else if self.points || self.error {
-            found.positions(rods)
-        } else {
-            Vec::new()
-        };
-        for (place, position) in rest.points.chunks_exact_mut(3).zip(&positions) {
-            place.copy_from_slice(&position.to_array());
+            for ((position, _), place) in nodes.iter().zip(points) {
+                *place = position.to_array();
+            }
+        } else if self.points {
+            found.put_positions(rods, points);
         }
-        positions
+    }
+
+    /// Estimates the error of the nodes from half as many elements.
+    fn estimate_error(&self, rods: &[Rod], found: &BatchSolution, rest: &mut ChunkOfRest<'_>) {
+        let half = Batch { elements: self.elements / 2, ..self.batch() };
+        let coarse = half.solve(rods).positions(rods);
+        let fine = found.positions(rods);
+        let both = fine.chunks_exact(self.elements + 1).zip(coarse.chunks_exact(half.elements + 1));
+        for (error, (fine, coarse)) in rest.error.iter_mut().zip(both) {
+            let gaps = coarse.iter().zip(fine.iter().step_by(2));
+            // The first term of the error of jointed elements, which is of second order in their length
+            // (docs/theory.md, "Extrapolation, accuracy and the estimate of error").
+            *error = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
+        }
     }
 }
 

@@ -53,6 +53,11 @@ impl Piece {
         let (turn, advance, moment) = helix_piece(strain * half, half);
         Self { turn, advance, moment }
     }
+
+    /// Arm (N m) of its own weight, `weight` per length (N/m), and of what hangs from its end (N).
+    fn bears(&self, hanging: f64, weight: f64) -> DVec3 {
+        self.advance * hanging + self.moment * weight
+    }
 }
 
 impl Joints {
@@ -64,7 +69,6 @@ impl Joints {
         assert!(n > 0, "a rod has at least one element");
         let h = rod.length() / n as f64;
         let half = 0.5 * h;
-        let weight = rod.weight();
         self.h = h;
         self.vertical = rod.up();
         self.root = (rod.root().position(), rod.root().frame());
@@ -72,50 +76,73 @@ impl Joints {
         self.arms.clear();
         self.links.clear();
         self.halves.clear();
-        let uniform = match rod.natural() {
+        // ½ cᵀ (K/h) c: the joint carries the bending of its whole element.
+        self.stiffness = rod.stiffness() / h;
+        match rod.natural() {
             NaturalStrain::Uniform(strain) => {
                 self.halves.push([Piece::of(*strain, half); 2]);
-                true
+                self.join_equal(rod, n);
             }
             NaturalStrain::Varying(_) => {
                 // Each half has the mean natural strain of its own, as in crate::element.
                 let mut pieces = rod.natural().means(half).map(|strain| Piece::of(strain, half));
                 let mut piece = || pieces.next().expect("an endless iterator");
                 self.halves.extend((0..n).map(|_| [piece(), piece()]));
-                false
+                self.join(rod, n);
             }
-        };
-        // ½ cᵀ (K/h) c: the joint carries the bending of its whole element.
-        self.stiffness = rod.stiffness() / h;
+        }
+    }
+
+    /// The joints between elements that differ.
+    fn join(&mut self, rod: &Rod, n: usize) {
+        let weight = rod.weight();
         let mut before: Option<Piece> = None;
         for i in 0..n {
-            let [first, second] = *self.halves(i);
-            // Weight (N) of the rod beyond the element, and the moment arm (N m) of the first piece under it.
-            let hanging = weight * h * (n - 1 - i) as f64;
-            let bears = first.advance * (hanging + weight * half) + first.moment * weight;
+            let [first, second] = self.halves[i];
+            // Weight (N) of the rod beyond the element.
+            let hanging = weight * self.h * (n - 1 - i) as f64;
+            let bears = first.bears(hanging + weight * 0.5 * self.h, weight);
             match before {
-                // Before the first joint there is the clamp: its weight is a constant.
-                None => {
-                    let (position, clamp) = self.root;
-                    self.constant = (clamp * bears).dot(rod.up());
-                    self.frame = clamp * first.turn;
-                    self.start = position + clamp * first.advance;
-                    self.up = self.frame.transpose() * rod.up();
-                }
+                None => self.begin(rod, &first, bears),
                 // The first piece moves rigidly with the joint before: it belongs to that joint's arm and link.
                 Some(before) => {
-                    if i == 1 || !uniform {
-                        // C = B A⁺. (L2)
-                        self.turns.push(before.turn * first.turn);
-                    }
+                    // C = B A⁺. (L2)
+                    self.turns.push(before.turn * first.turn);
                     self.arms[i - 1] += before.turn * bears;
                     self.links[i - 1] += before.turn * first.advance;
                 }
             }
-            self.arms.push(second.advance * hanging + second.moment * weight);
+            self.arms.push(second.bears(hanging, weight));
             self.links.push(second.advance);
             before = Some(second);
         }
+    }
+
+    /// [`Self::join`] where all pieces are the same: what a joint bears grows by as much from each to the one before.
+    fn join_equal(&mut self, rod: &Rod, n: usize) {
+        let weight = rod.weight();
+        let element = weight * self.h;
+        let [piece, _] = self.halves[0];
+        self.begin(rod, &piece, piece.bears(element * (n as f64 - 0.5), weight));
+        if n > 1 {
+            self.turns.push(piece.turn * piece.turn);
+        }
+        let link = piece.advance + piece.turn * piece.advance;
+        // Of the weight beyond the element the next one is half a piece closer to the tip.
+        let own = piece.moment * weight + piece.turn * piece.bears(-0.5 * element, weight);
+        self.arms.extend((1..n).map(|i| own + link * (element * (n - i) as f64)));
+        self.arms.push(piece.bears(0.0, weight));
+        self.links.extend((1..n).map(|_| link));
+        self.links.push(piece.advance);
+    }
+
+    /// What is before the first joint: the clamp and the piece `first` under the arm `bears` (N m), whose energy is a constant.
+    fn begin(&mut self, rod: &Rod, first: &Piece, bears: DVec3) {
+        let (position, clamp) = self.root;
+        self.constant = (clamp * bears).dot(rod.up());
+        self.frame = clamp * first.turn;
+        self.start = position + clamp * first.advance;
+        self.up = self.frame.transpose() * rod.up();
     }
 
     /// The halves of an element, before and after its joint.

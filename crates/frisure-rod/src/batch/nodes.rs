@@ -47,6 +47,15 @@ impl Place for &mut [DVec3] {
     }
 }
 
+impl Place for &mut [[f64; 3]] {
+    const FRAMES: bool = false;
+
+    #[inline(always)]
+    fn put(&mut self, index: usize, position: DVec3, _: impl FnOnce() -> DMat3) {
+        self[index] = position.to_array();
+    }
+}
+
 impl Place for &mut [(DVec3, DMat3)] {
     const FRAMES: bool = true;
 
@@ -120,6 +129,15 @@ impl BatchSolution {
         let place = positions.as_mut_slice();
         dispatch!(Level::new(), simd => in_lanes(f64s(simd), rods, self, place));
         positions
+    }
+
+    /// Puts the [`Self::positions`] (m) into memory that is there.
+    ///
+    /// # Panics
+    /// If the rods are not as many as were solved, or the places fewer than the nodes.
+    pub fn put_positions(&self, rods: &[Rod], places: &mut [[f64; 3]]) {
+        assert!(places.len() >= rods.len() * (self.elements + 1), "a place for each node");
+        dispatch!(Level::new(), simd => in_lanes(f64s(simd), rods, self, &mut *places));
     }
 
     /// [`Self::positions`], and the frame at each node: its columns are d1, d2 and the tangent.
