@@ -78,6 +78,46 @@ def test_gradients_are_those_of_the_library(gradient: Any, arguments: dict[str, 
         assert np.allclose(found[name], by, rtol=1e-9, atol=1e-12 * np.abs(by).max()), name
 
 
+def torch_energy_gradient(arguments: dict[str, Any], weights: Any, by_energy: Any) -> dict[str, Any]:
+    torch = framework("torch")
+    import frisure.torch
+
+    tensors = {name: torch.tensor(v, dtype=torch.float64, requires_grad=True) for name, v in arguments.items()}
+    points, energy = frisure.torch.settle_with_energy(**tensors, elements=20)
+    assert energy.dtype == torch.float64 and energy.shape == (3,)
+    loss = (energy * torch.as_tensor(by_energy)).sum()
+    if weights is not None:
+        loss = loss + (points * torch.as_tensor(weights)).sum()
+    loss.backward()
+    return {name: tensor.grad.numpy() for name, tensor in tensors.items()}
+
+
+def jax_energy_gradient(arguments: dict[str, Any], weights: Any, by_energy: Any) -> dict[str, Any]:
+    jax = framework("jax")
+    jax.config.update("jax_enable_x64", True)
+    import frisure.jax
+
+    @jax.jit
+    def loss(given: dict[str, Any]) -> Any:
+        points, energy = frisure.jax.settle_with_energy(**given, elements=20)
+        return (energy * by_energy).sum() + (0.0 if weights is None else (points * weights).sum())
+
+    arrays = {name: jax.numpy.asarray(value) for name, value in arguments.items()}
+    return {name: np.asarray(by) for name, by in jax.grad(loss)(arrays).items()}
+
+
+@pytest.mark.parametrize("weights", [WEIGHTS, None])
+@pytest.mark.parametrize("gradient", [torch_energy_gradient, jax_energy_gradient])
+def test_a_loss_may_have_the_energy(gradient: Any, weights: Any) -> None:
+    settled = rods.settle(**SHAPES, elements=20, derivatives=True)
+    by_energy = np.array([1.0, -2.0, 3.0]) / settled.energy
+    exact = settled.vjp(weights, by_energy=by_energy)
+    for name, found in gradient(SHAPES, weights, by_energy).items():
+        rows = getattr(exact, name)
+        by = rows if np.ndim(SHAPES[name]) == rows.ndim else rows.sum(axis=0)
+        assert np.allclose(found, by, rtol=1e-9, atol=1e-12 * np.abs(by).max()), name
+
+
 def test_a_curl_is_found_by_descent_in_torch() -> None:
     torch = framework("torch")
     import frisure.torch

@@ -1,4 +1,4 @@
-"""Rods at rest for JAX: `settle` with gradients, also inside `jax.jit`. Needs `jax`, which frisure does not install.
+"""Rods at rest for JAX: `settle` and `settle_with_energy` with gradients, also inside `jax.jit`. Needs `jax`, which frisure does not install.
 
 >>> import jax
 >>> import frisure.jax
@@ -21,9 +21,12 @@ from frisure import _autodiff, rods
 from frisure._check import unmasked
 from frisure.errors import ArgumentTypeError
 
-__all__ = ["settle"]
+__all__ = ["settle", "settle_with_energy"]
 
 _Options = tuple[tuple[str, Any], ...]
+
+_Rest = tuple[jax.Array, jax.Array]
+"""The nodes and the energies."""
 
 
 def _like(shape: tuple[int, ...], kind: Any) -> Any:
@@ -45,47 +48,47 @@ def _real(name: str, value: Any) -> jax.Array:
 
 
 @partial(jax.custom_vjp, nondiff_argnums=(0,))  # type: ignore[untyped-decorator, unused-ignore]
-def _points(options: _Options, arguments: dict[str, jax.Array]) -> jax.Array:
+def _rest(options: _Options, arguments: dict[str, jax.Array]) -> _Rest:
     kind = jnp.result_type(*arguments.values())
     count = _autodiff.count({name: value.shape for name, value in arguments.items()})
     shape = (count, dict(options).get("elements", 15) + 1, 3)
     if count == 0:
-        return jnp.zeros(shape, kind)
+        return jnp.zeros(shape, kind), jnp.zeros(0, kind)
 
     def host(given: dict[str, Any]) -> Any:
         settled = _autodiff.settle(_doubles(given), dict(options), derivatives=False)
-        return _autodiff.points(settled).astype(kind)
+        return _autodiff.points(settled).astype(kind), settled.energy.astype(kind)
 
-    found: jax.Array = jax.pure_callback(host, _like(shape, kind), arguments, vmap_method="sequential")
+    like = (_like(shape, kind), _like((count,), kind))
+    found: _Rest = jax.pure_callback(host, like, arguments, vmap_method="sequential")
     return found
 
 
-def _forward(options: _Options, arguments: dict[str, jax.Array]) -> tuple[jax.Array, dict[str, jax.Array]]:
-    return _points(options, arguments), arguments
+def _forward(options: _Options, arguments: dict[str, jax.Array]) -> tuple[_Rest, dict[str, jax.Array]]:
+    return _rest(options, arguments), arguments
 
 
-def _backward(
-    options: _Options, arguments: dict[str, jax.Array], by_points: jax.Array
-) -> tuple[dict[str, jax.Array]]:
+def _backward(options: _Options, arguments: dict[str, jax.Array], by_rest: _Rest) -> tuple[dict[str, jax.Array]]:
     shapes = {name: _like(value.shape, value.dtype) for name, value in arguments.items()}
 
-    if by_points.shape[0] == 0:
+    if by_rest[0].shape[0] == 0:
         return ({name: jnp.zeros(shape.shape, shape.dtype) for name, shape in shapes.items()},)
 
-    def host(given: dict[str, Any], loss: Any) -> Any:
+    def host(given: dict[str, Any], by_points: Any, by_energy: Any) -> Any:
         # The equilibria are computed again: JAX keeps arrays alone from one pass to the other.
         settled = _autodiff.settle(_doubles(given), dict(options), derivatives=True)
-        gradient = settled.vjp(np.asarray(loss, dtype=np.float64))
+        by_points, by_energy = (np.asarray(by, dtype=np.float64) for by in (by_points, by_energy))
+        gradient = settled.vjp(by_points, by_energy=by_energy)
         return {
             name: _autodiff.derivative(gradient, name, shape.shape).astype(shape.dtype)
             for name, shape in shapes.items()
         }
 
-    found = jax.pure_callback(host, shapes, arguments, by_points, vmap_method="sequential")
+    found = jax.pure_callback(host, shapes, arguments, *by_rest, vmap_method="sequential")
     return (found,)
 
 
-_points.defvjp(_forward, _backward)
+_rest.defvjp(_forward, _backward)
 
 
 def settle(length: Any, **keywords: Any) -> jax.Array:
@@ -99,9 +102,19 @@ def settle(length: Any, **keywords: Any) -> jax.Array:
     Wrong shapes and options are an `ArgumentError`, and so are wrong numbers where JAX traces none of the arguments; of those that it
     traces, such as the ones that are differentiated, only the computation sees the numbers, and JAX raises an error of its own.
     """
+    return settle_with_energy(length, **keywords)[0]
+
+
+def settle_with_energy(length: Any, **keywords: Any) -> _Rest:
+    """The nodes of H rods at rest (m), (H, P, 3), and their potential energies (J), (H,): elastic, and of the weight, which is 0 at the height of the
+    origin. Arguments, types, gradients and errors are those of `settle`.
+
+    >>> bool(jax.grad(lambda length: settle_with_energy(length)[1][0])(0.1) < 0)     # a longer rod hangs lower
+    True
+    """
     arguments, options = _autodiff.split({"length": length, **keywords})
     arrays = {name: _real(name, value) for name, value in arguments.items()}
     _autodiff.count({name: value.shape for name, value in arrays.items()})
     if not any(isinstance(value, jax.core.Tracer) for value in arrays.values()):
         rods._check(_doubles(arrays))
-    return _points(tuple(sorted(options.items())), arrays)
+    return _rest(tuple(sorted(options.items())), arrays)

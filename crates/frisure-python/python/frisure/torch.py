@@ -1,4 +1,4 @@
-"""Rods at rest for PyTorch: `settle` with gradients. Needs `torch`, which frisure does not install.
+"""Rods at rest for PyTorch: `settle` and `settle_with_energy`, with gradients. Needs `torch`, which frisure does not install.
 
 >>> import torch
 >>> import frisure.torch
@@ -19,7 +19,7 @@ import torch  # type: ignore[import-not-found, unused-ignore]
 from frisure import _autodiff, rods
 from frisure.errors import ArgumentTypeError
 
-__all__ = ["settle"]
+__all__ = ["settle", "settle_with_energy"]
 
 
 def _numpy(name: str, tensor: torch.Tensor) -> Any:
@@ -35,7 +35,7 @@ class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
     @staticmethod
     def forward(
         ctx: Any, keywords: dict[str, Any], options: dict[str, Any], names: list[str], *tensors: torch.Tensor
-    ) -> torch.Tensor:
+    ) -> tuple[torch.Tensor, torch.Tensor]:
         arrays = {name: _numpy(name, tensor) for name, tensor in zip(names, tensors, strict=True)}
         settled = _autodiff.settle(keywords | arrays, options, derivatives=any(ctx.needs_input_grad))
         ctx.settled, ctx.names = settled, names
@@ -43,13 +43,14 @@ class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
         kinds = [tensor.dtype for tensor in tensors if tensor.is_floating_point()]
         kind = reduce(torch.promote_types, kinds) if kinds else torch.float64
         device = tensors[0].device if tensors else None
-        return torch.as_tensor(_autodiff.points(settled), dtype=kind, device=device)
+        points = torch.as_tensor(_autodiff.points(settled), dtype=kind, device=device)
+        return points, torch.as_tensor(settled.energy, dtype=kind, device=device)
 
     @staticmethod
     @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator, unused-ignore]
-    def backward(ctx: Any, by_points: torch.Tensor) -> tuple[Any, ...]:
+    def backward(ctx: Any, by_points: torch.Tensor, by_energy: torch.Tensor) -> tuple[Any, ...]:
         settled: rods.Settled = ctx.settled
-        gradient = settled.vjp(_numpy("by_points", by_points))
+        gradient = settled.vjp(_numpy("by_points", by_points), by_energy=_numpy("by_energy", by_energy))
         found: list[torch.Tensor | None] = []
         for index, (name, (shape, dtype, device)) in enumerate(zip(ctx.names, ctx.kinds, strict=True)):
             if ctx.needs_input_grad[3 + index]:
@@ -69,8 +70,21 @@ def settle(length: Any, **keywords: Any) -> torch.Tensor:
     the points have the tensors' widest type, and are on the device of the first. Rods without derivatives (`rods.Gradient.exists`)
     get zeros.
     """
+    return settle_with_energy(length, **keywords)[0]
+
+
+def settle_with_energy(length: Any, **keywords: Any) -> tuple[torch.Tensor, torch.Tensor]:
+    """The nodes of H rods at rest (m), (H, P, 3), and their potential energies (J), (H,): elastic, and of the weight, which is 0 at the height of the
+    origin. Arguments, types and gradients are those of `settle`.
+
+    >>> length = torch.tensor(0.1, dtype=torch.float64, requires_grad=True)
+    >>> points, energy = settle_with_energy(length)
+    >>> energy[0].backward()
+    >>> bool(length.grad < 0)                     # a longer rod hangs lower
+    True
+    """
     arguments, options = _autodiff.split({"length": length, **keywords})
     tensors = {name: value for name, value in arguments.items() if isinstance(value, torch.Tensor)}
     others = {name: value for name, value in arguments.items() if name not in tensors}
-    found: torch.Tensor = _Settle.apply(others, options, list(tensors), *tensors.values())  # type: ignore[no-untyped-call, unused-ignore]
-    return found
+    points, energy = _Settle.apply(others, options, list(tensors), *tensors.values())  # type: ignore[no-untyped-call, unused-ignore]
+    return points, energy
