@@ -422,6 +422,12 @@ fn a_picture_destroys_nothing_that_it_reads_or_that_is_in_its_way() {
     let (code, err) = run(&["render", "quick.toml", "-o", "b.png"]);
     assert!(code == Some(0) && err.contains("b.png.part.old"), "{err}");
     assert_eq!(fs::read(room.path("b.png.part.old")).unwrap(), other);
+    // A second one does not take the place of the first.
+    fs::write(room.path("b.png.part"), &other[..50]).unwrap();
+    let (code, err) = run(&["render", "quick.toml", "-o", "b.png"]);
+    assert!(code == Some(0) && err.contains("b.png.part.old2"), "{err}");
+    assert_eq!(fs::read(room.path("b.png.part.old")).unwrap(), other);
+    assert_eq!(fs::read(room.path("b.png.part.old2")).unwrap(), other[..50]);
 }
 
 #[cfg(unix)]

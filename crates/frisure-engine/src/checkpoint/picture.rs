@@ -48,7 +48,17 @@ pub(crate) fn resume(
     if let Some(found) = found.filter(|accumulator| tracer.can_resume(accumulator)) {
         return Ok((Some(found), None));
     }
-    let old = with_suffix(path, ".old");
+    let old = unused(path);
     std::fs::rename(path, &old).map_err(|e| Error::failed(&e, ""))?;
     Ok((None, Some(old)))
+}
+
+/// The path with `.old`, or `.old2` and so on, that nothing has yet.
+fn unused(path: &Path) -> PathBuf {
+    let numbered = (2..u32::MAX).map(|number| format!(".old{number}"));
+    let mut paths =
+        std::iter::once(".old".to_owned()).chain(numbered).map(|suffix| with_suffix(path, &suffix));
+    // A link to nothing would be replaced, too.
+    let free = paths.find(|path| path.symlink_metadata().is_err());
+    free.expect("a folder has fewer files")
 }
