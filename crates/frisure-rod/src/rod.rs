@@ -127,6 +127,10 @@ pub struct Rod {
     weight: f64,
 }
 
+/// The most that a bending stiffness counts in [`Rod::moment_scale`], in the smallest stiffness of the rod. Chosen: beyond hair, whose
+/// stiffnesses differ by up to 28 times, flat by five to one.
+const STIFFEST: f64 = 100.0;
+
 impl Rod {
     /// The rod of a specification.
     ///
@@ -215,12 +219,13 @@ impl Rod {
     }
 
     /// The moment that gradients are measured against: EI/L + ρ S g L² (N m), with the larger bending
-    /// stiffness. The stiffness of torsion does not count: of a fibre that hardly twists the moment of
-    /// its weight would be small beside it, and any shape would be at rest.
+    /// stiffness, but at most [`STIFFEST`] times the smallest of the three. Beside the stiffness of a fibre that hardly
+    /// twists, or of one that hardly bends but twists, the moment of its weight would be small, and any shape would be at rest.
     #[must_use]
     pub fn moment_scale(&self) -> f64 {
         let bending = self.stiffness.x.max(self.stiffness.y);
-        bending / self.length() + self.weight * self.length().powi(2)
+        let counted = bending.min(STIFFEST * self.stiffness.min_element());
+        counted / self.length() + self.weight * self.length().powi(2)
     }
 }
 

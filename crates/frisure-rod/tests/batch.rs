@@ -143,3 +143,56 @@ fn saddles_and_limits() {
     let one = Batch { elements: 1, ..Batch::default() }.solve(&rods);
     assert!(one.rods.iter().all(|hair| hair.stability == Stability::Stable));
 }
+
+/// A rod that hardly bends under its weight and twists a lot (length in m, E and G in Pa, g in m/s², natural strain in rad/m).
+fn stiff_but_twisting(
+    length: f64,
+    axis_ratio: f64,
+    [e, g, gravity]: [f64; 3],
+    strain: DVec3,
+    tangent: DVec3,
+) -> Rod {
+    Rod::new(RodSpec {
+        length,
+        section: Section::from_diameter(72e-6, axis_ratio).unwrap(),
+        material: Material::new(e, g, 1300.0).unwrap(),
+        torsion: TorsionConstant::SaintVenant,
+        natural: NaturalStrain::Uniform(strain),
+        root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.3, 1.0)).unwrap(),
+        load: Load::down(gravity),
+    })
+    .unwrap()
+}
+
+#[test]
+fn what_hardly_bends_but_twists_comes_to_rest() {
+    let rods = [
+        stiff_but_twisting(
+            0.034,
+            5.1,
+            [7e12, 3.7e3, 4.4e-3],
+            DVec3::new(-53.0, -44.0, 9.0),
+            DVec3::new(0.52, 0.67, 0.28),
+        ),
+        stiff_but_twisting(1e-3, 1.0, [1e13, 1e3, 9.81], DVec3::X * 1000.0, DVec3::X),
+        stiff_but_twisting(0.1, 1.3, [3.9e9, 1e6, 9.81], DVec3::new(60.0, 0.0, 5.0), DVec3::X),
+    ];
+    let batch = Batch::default();
+    let exact = Batch { tolerance: 1e-15, ..batch };
+    let (found, exact) = (batch.solve(&rods), exact.solve(&rods));
+    let options = elements(batch.elements, ElementKind::Jointed);
+    for (i, rod) in rods.iter().enumerate() {
+        assert_eq!(found.rods[i].stability, Stability::Stable, "{i}");
+        assert!(found.rods[i].iterations > 0, "{i}");
+        let tip = |of: &frisure_rod::batch::BatchSolution| {
+            *of.shape(rod, i).positions.last().expect("a rod has nodes")
+        };
+        // It has moved, and as far as to a gradient that is only rounding.
+        let gap = tip(&found).distance(tip(&exact)) / rod.length();
+        assert!(gap < 1e-5, "{i}: {gap}");
+        let alone = equilibrium(rod, &[], &options);
+        assert_eq!(alone.certificate.stability, Stability::Stable, "{i}");
+        let gap = tip(&found).distance(alone.tip()) / rod.length();
+        assert!(gap < 1e-5, "{i}: {gap}");
+    }
+}

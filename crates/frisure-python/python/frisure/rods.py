@@ -138,7 +138,7 @@ class Settled:
     - `points` (H, P, 3), m: nodes from root to tip; None with `points=False`.
     - `energy` (H,), J: elastic energy and that of the weight.
     - `stable` (H,) bool: whether the shape is a minimum of the energy.
-    - `gradient_norm` (H,): largest derivative of the energy, as a fraction of the moment of the weight.
+    - `gradient_norm` (H,): largest derivative of the energy by a turn, as a fraction of EI/L + ρSgL² (N m).
     - `iterations` (H,) uint32: iterations of the solver.
     - `error` (H,), m: estimated largest error of a node from the division into elements; None without `error=True`.
     - `eigenvalue` (H,), without unit: the smallest quotient of the second variation of the whole energy over that of the elastic energy, along
