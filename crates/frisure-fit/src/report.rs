@@ -33,7 +33,9 @@ impl Fit {
                 return said;
             }
         }
-        if self.curvature.value < 2.0 * self.curvature.deviation {
+        if self.curvature.value < 2.0 * self.curvature.deviation
+            || self.curl_radius.value < self.radius_of_noise()
+        {
             said.push(
                 "the fibre is straight within the noise: radius and pitch have no meaning"
                     .to_owned(),
@@ -42,7 +44,19 @@ impl Fit {
         said.extend(self.blind.iter().map(|blind| sentence(blind, self.lines.len())));
         said
     }
+
+    /// Radius (m) of a helix that noise alone stays below but with a probability of [`BY_CHANCE`].
+    ///
+    /// Of N points with a deviation σ of each coordinate a helix of radius a explains the square N a²/σ², distributed as χ² with two degrees of freedom where there
+    /// is nothing but noise. The fit takes the largest of N independent ones, N/2 numbers of turns of either hand.
+    fn radius_of_noise(&self) -> f64 {
+        let points = self.lines.iter().map(Vec::len).sum::<usize>().max(1) as f64;
+        self.noise * (2.0 * (points / BY_CHANCE).ln() / points).sqrt()
+    }
 }
+
+/// Probability with which a straight fibre counts as curled by its noise. Chosen.
+const BY_CHANCE: f64 = 1e-3;
 
 /// A fibre and its fit, with a name.
 #[derive(Clone, Copy, Debug)]

@@ -289,3 +289,30 @@ fn a_fit_does_not_depend_on_those_beside_it() {
         assert_eq!(alone.lines, together[i].lines);
     }
 }
+
+#[test]
+fn a_straight_fibre_is_not_curled_by_its_noise() {
+    // The fit finds the helix that explains most of the noise: its curvature has a deviation much smaller than itself.
+    let mut random = SplitMix64(41);
+    let mut seen = |radius: f64, pitch: f64| {
+        let truth = Truth { length: 0.12, radius, pitch, stiffness: 9.4e-5, ratio: 0.46 };
+        fitted(&seen_once(&vec![truth; count(60)], NOISE, true, &mut random))
+    };
+    let told = |fits: &[Fit]| {
+        let says = |fit: &&Fit| fit.statements().iter().any(|said| said.contains("straight"));
+        fits.iter().filter(says).count()
+    };
+    // A radius of a nanometre.
+    let straight = seen(1e-9, 0.05);
+    let curled = straight.iter().filter(|f| f.curvature.value > 2.0 * f.curvature.deviation);
+    assert!(curled.count() > straight.len() / 4, "the noise is fitted");
+    // A slight bend is beyond twice its deviation in a few of a hundred.
+    assert!(
+        10 * told(&straight) >= 9 * straight.len(),
+        "{} of {}",
+        told(&straight),
+        straight.len()
+    );
+    // A radius of ten times the noise is a curl.
+    assert_eq!(told(&seen(1e-3, 8e-3)), 0);
+}

@@ -22,6 +22,12 @@ pub(crate) const MOST_TILT: f64 = 0.35;
 /// Factor by which the amplitudes of middle line, ridge lines and directions may differ. Tuned on renders with seeds below 1000.
 pub(crate) const MOST_APART: f64 = 1.6;
 
+/// Shortest and longest line of a lock (m). Chosen: the longest hair on record is 5.6 m.
+pub(crate) const LENGTHS: [f64; 2] = [1e-3, 6.0];
+
+/// Least length that may be given of a hair, over that of its line in the photo, which is known to some per cent. Chosen.
+pub(crate) const SHORTEST: f64 = 0.8;
+
 /// Why no radius and pitch are given.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Serialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
@@ -99,6 +105,20 @@ pub enum Abstention {
         /// Amplitude (m) by ridge lines or by directions.
         other: f64,
     },
+    /// The line of the lock has a length that hair has not.
+    #[error("the line of the lock is {:.3} m long by the scale of the photo (hair is from {:.3} to {:.0} m)", length, LENGTHS[0], LENGTHS[1])]
+    Scale {
+        /// Length of the line (m).
+        length: f64,
+    },
+    /// The hair is given as shorter than what is seen of it.
+    #[error("{:.0} mm of the lock are seen, and its hair is given as {:.0} mm long", 1e3 * seen, 1e3 * given)]
+    Short {
+        /// Length of the line that is seen (m).
+        seen: f64,
+        /// Length that was given (m).
+        given: f64,
+    },
     /// No line runs along the wave.
     #[error("no line of hair runs along the wave")]
     Unsupported,
@@ -136,6 +156,10 @@ impl Abstention {
             }
             Self::Disagree { .. } | Self::Unsupported => {
                 "look at --overlay: what was followed is no lock, or its hairs cross; give --crop around one lock"
+            }
+            Self::Scale { .. } => "is the scale right, such as 52 px/mm and not 52 mm/px?",
+            Self::Short { .. } => {
+                "give the length of the hair from the place where it is held to its tip, or leave --length out; and is the scale right?"
             }
             Self::Ambiguous { .. } => "take fewer hairs, or a single one",
             Self::Uncertain { .. } => {

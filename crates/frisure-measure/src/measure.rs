@@ -5,8 +5,8 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::abstain::{
-    Abstention, LEAST_AMPLITUDE, LEAST_EXPLAINED, LEAST_WAVELENGTH, LEAST_WAVES, MOST_APART,
-    MOST_DEVIATION, MOST_TILT,
+    Abstention, LEAST_AMPLITUDE, LEAST_EXPLAINED, LEAST_WAVELENGTH, LEAST_WAVES, LENGTHS,
+    MOST_APART, MOST_DEVIATION, MOST_TILT, SHORTEST,
 };
 use crate::contrast::Contrast;
 use crate::cues::{Cues, Ratio, cues};
@@ -379,7 +379,13 @@ impl Seen {
             Estimate::of_logarithm(wave.mean_wavelength(), deviations[1].hypot(UNSEEN));
         let slope = std::f64::consts::TAU * apparent_radius.value / apparent_pitch.value;
         let arc = (self.foot - self.head) * mean_stretch(wave, widening, slope);
+        if !(LENGTHS[0]..=LENGTHS[1]).contains(&arc) {
+            return Ok(Err(Abstention::Scale { length: arc }));
+        }
         let length = options.length.unwrap_or(arc);
+        if length < SHORTEST * arc {
+            return Ok(Err(Abstention::Short { seen: arc, given: length }));
+        }
         let natural = match options.hang {
             Hang::None => Some([apparent_radius, apparent_pitch]),
             Hang::Down => self.natural(&replicates, options, length, progress)?,

@@ -141,6 +141,23 @@ fn what_cannot_be_told_has_a_reason() {
 }
 
 #[test]
+fn a_length_that_cannot_be_is_told() {
+    let curve = |z: f64| 40.0 * (TAU * z / 200.0).cos();
+    let rgb = drawn(&[Box::new(curve)]);
+    let photo = Photo::new(WIDTH, HEIGHT, &rgb, None).unwrap();
+    let found = |options: Options| measure(&photo, &options, &()).unwrap().result;
+    // 11 cm of picture, and a fifth more of hair.
+    for (length, refused) in [(0.05, true), (0.2, false)] {
+        let result = found(Options { length: Some(length), ..options(Hang::Down) });
+        assert_eq!(matches!(result, Err(Abstention::Short { .. })), refused, "{result:?}");
+    }
+    // Millimetres for each pixel in place of pixels for each millimetre.
+    let scale = Scale::parse("10 mm/px").unwrap();
+    let result = found(Options { scale, ..options(Hang::None) });
+    assert!(matches!(result, Err(Abstention::Scale { .. })), "{result:?}");
+}
+
+#[test]
 fn photos_are_checked_and_cropped() {
     let rgb = vec![0; 3 * 64 * 48];
     let crop = |x, y, width, height| Photo::new(64, 48, &rgb, Some(Crop { x, y, width, height }));

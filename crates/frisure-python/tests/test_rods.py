@@ -157,6 +157,11 @@ def test_no_rods_are_no_error() -> None:
         ({"length": 0.1, "curl_pitch": 0.01}, ValueError, "curl_pitch is given without curl_radius"),
         ({"length": 0.1, "elements": 15, "error": True}, ValueError, "even"),
         ({"length": 0.1, "tolerance": np.nan}, ValueError, "tolerance is nan"),
+        ({"length": 0.1, "tolerance": 0.1}, ValueError, "tolerance is 0.1; it must be .* at most 1e-2"),
+        ({"length": 0.1, "points": "no"}, TypeError, "points is 'no'; it must be True or False"),
+        ({"length": 0.1, "error": []}, TypeError, r"error is \[\]"),
+        ({"length": 0.1, "derivatives": np.zeros(2)}, TypeError, "derivatives is array"),
+        ({"length": 0.1, "precision": np.zeros(2)}, ValueError, "precision is array"),
         ({"length": 0.1, "precision": "half"}, ValueError, "precision is 'half'"),
         ({"length": "25 cm"}, TypeError, "SI units"),
         ({"length": 1j}, TypeError, "complex"),
@@ -286,6 +291,7 @@ def test_help_has_every_field_with_its_meaning(kind: type) -> None:
 
 def test_masked_values_are_refused_by_name() -> None:
     masked: Any = np.ma.masked_array([0.1, 99.0], mask=[False, True])  # type: ignore[no-untyped-call]
+    masked_strain: Any = np.ma.masked_array([10.0, 500.0, 0.0], mask=[False, True, False])  # type: ignore[no-untyped-call]
     points: Any = np.ma.masked_invalid(np.full((1, 6, 3), np.nan))  # type: ignore[no-untyped-call]
     rest = rods.settle([0.1, 0.1], derivatives=True)
     loss: Any = np.ma.masked_greater(np.ones((2, 16, 3)), 0)  # type: ignore[no-untyped-call]
@@ -293,6 +299,7 @@ def test_masked_values_are_refused_by_name() -> None:
         (lambda: rods.settle(masked), "length has masked"),
         (lambda: rods.settle(0.1, curl_radius=masked), "curl_radius has masked"),
         (lambda: rods.inverse(points), "points has masked"),
+        (lambda: rods.settle(0.1, natural_strain=[[[1.0, 2.0, 3.0], masked_strain]]), "natural_strain has masked"),
         (lambda: rest.vjp(loss), "by_points has masked"),
         (lambda: rest.jvp(length=masked), "length has masked"),
         (lambda: frisure.fit(points), "strands has masked"),

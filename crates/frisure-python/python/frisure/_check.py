@@ -33,10 +33,16 @@ def array(name: str, value: Any) -> Float64:
 
 def unmasked(name: str, value: Any) -> None:
     """Refuses arrays of `numpy.ma`, and lists of them, in which a value is masked: NumPy would give the number beneath the mask."""
-    masked = np.ma.MaskedArray
-    parts = value if isinstance(value, (list, tuple)) else [value]
-    if any(isinstance(part, masked) and np.ma.is_masked(part) for part in parts):
+    if _is_masked(value, 3):
         raise ArgumentError(f"{name} has masked values; leave them out, or fill them (`filled()`)")
+
+
+def _is_masked(value: Any, deep: int) -> bool:
+    """Whether a value is masked in an array, or in lists of arrays so many levels deep: arguments have three dimensions at most."""
+    if isinstance(value, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(value))
+    listed = deep > 0 and isinstance(value, (list, tuple))
+    return listed and any(_is_masked(part, deep - 1) for part in value)
 
 
 def flag(name: str, value: Any) -> bool:
@@ -61,6 +67,10 @@ def path(name: str, value: Any) -> Path:
     """The path of a file or a folder."""
     if not isinstance(value, (str, os.PathLike)):
         raise ArgumentTypeError(f"{name} is {shown(value)}; it must be a path")
+    try:
+        os.fsencode(value)
+    except UnicodeEncodeError:
+        raise ArgumentError(f"{name} is {shown(value)}; it has a lone surrogate, which is no character") from None
     return Path(value)
 
 

@@ -94,8 +94,8 @@ def measure(
 
     docs/photo.md describes how to photograph a lock, the method and its errors. `frisure measure` is the same in a shell.
     """
-    if hang not in ("down", "none"):
-        raise ArgumentError(f"hang is {hang!r}; it can be 'down' or 'none'")
+    if not isinstance(hang, str) or hang not in ("down", "none"):
+        raise ArgumentError(f"hang is {shown(hang)}; it can be 'down' or 'none'")
     if isinstance(photo, np.ndarray):
         unmasked("photo", photo)
         if photo.dtype != np.uint8 or photo.ndim != 3 or photo.shape[2] not in (3, 4):

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from frisure._check import array as _array
-from frisure._check import real, whole
+from frisure._check import flag, real, whole
 from frisure._frisure import RodsAtRest, check_rods, inverse_rods, settle_rods
 from frisure.errors import ArgumentError
 
@@ -522,10 +522,12 @@ def settle(
       (H, K, 3) at K knots that divide the length evenly.
     - The clamp: `root` (m), the `tangent` there, and `d1`, the direction of the section's longer axis; they
       need not be normalised, nor at right angles. By default d1 is y, and x where the tangent is along y.
-    - `elements` of each rod: 3.5 per turn of a curl keep the whole rod within some tenths of a millimetre.
-    - `tolerance`: the `gradient_norm` at which a rod is at rest. `precision="single"` iterates in single precision first,
+    - `elements` of each rod: 3.5 per turn of a curl keep the middle one of many rods within some tenths of a millimetre, and nearly all within 3 mm; the error
+      falls with the square of their number.
+    - `tolerance`: the `gradient_norm` at which a rod is at rest, at most 1e-2. `precision="single"` iterates in single precision first,
       to the same result within the tolerance.
-    - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements; `frames=True` adds the frames there.
+    - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements (too little where few elements
+      have another equilibrium); `frames=True` adds the frames there.
     - `eigenvalue=True` adds the smallest eigenvalue of each rod; this takes three to four times as long as the rest.
     - `derivatives=True` keeps the rods for `Settled.vjp` and `Settled.jvp`, and brings them to rest to 1e-10 at least.
 
@@ -534,21 +536,21 @@ def settle(
     Raises `ArgumentError` with the argument and the index of the first rod that cannot be made, and if the rods have no room in memory.
     """
     elements, precision = _options(elements, precision)
-    if error and elements % 2:
+    if flag("error", error) and elements % 2:
         raise ArgumentError(f"elements is {elements}; with error=True it must be even")
-    tolerance = real("tolerance", tolerance, "a number greater than 0", np.nextafter(0, 1))
+    tolerance = real("tolerance", tolerance, "a number greater than 0, at most 1e-2", np.nextafter(0, 1), 1e-2)
     fibres = _fibres(diameter, axis_ratio, youngs_modulus, shear_modulus, density, gravity)
     clamped = _clamped(length, root, tangent, d1, curl_radius, curl_pitch, natural_strain)
     count = _count({name: array for name, array in (fibres | clamped).items() if array is not None})
     options = {
         "elements": elements,
-        "tolerance": min(tolerance, EXACT) if derivatives else tolerance,
+        "tolerance": min(tolerance, EXACT) if flag("derivatives", derivatives) else tolerance,
         "single": precision == "single",
-        "points": bool(points),
-        "error": bool(error),
-        "eigenvalue": bool(eigenvalue),
-        "frames": bool(frames),
-        "derivatives": bool(derivatives),
+        "points": flag("points", points),
+        "error": flag("error", error),
+        "eigenvalue": flag("eigenvalue", eigenvalue),
+        "frames": flag("frames", frames),
+        "derivatives": flag("derivatives", derivatives),
     }
     arrays = settle_rods(count, fibres, clamped, options, progress)
     settled, rods = Settled(*arrays[:-1]), arrays[-1]
@@ -562,7 +564,7 @@ def settle(
 
 
 def _options(elements: Any, precision: Any) -> tuple[int, Any]:
-    if precision not in ("double", "single"):
+    if not isinstance(precision, str) or precision not in ("double", "single"):
         raise ArgumentError(f'precision is {precision!r}; it must be "double" or "single"')
     return whole("elements", elements, 1, MAX_ELEMENTS), precision
 
