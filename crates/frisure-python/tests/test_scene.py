@@ -263,6 +263,9 @@ def test_every_wrong_type_is_an_error_of_the_package() -> None:
         (lambda: frisure.Scene({1: {}}), "the key 1 of scene"),  # type: ignore[dict-item]
         (lambda: frisure.Scene({"hair": {"type": "\ud800"}}), r'scene\["hair"\]\["type"\] has a lone surrogate'),
         (lambda: frisure.Scene("\ud800\n"), "scene is .*lone surrogate"),
+        (lambda: frisure.Scene("\ud800"), "scene is .*lone surrogate"),
+        (lambda: scene.save("\ud800.toml"), "path is .*lone surrogate"),
+        (lambda: frisure.measure("\ud800.png", "10 px/mm"), "photo is .*lone surrogate"),
         (lambda: frisure.Scene({}, folder=3), "folder is 3"),  # type: ignore[arg-type]
         (lambda: scene.update({"hair.\ud800": 1}), "a key is .*lone surrogate"),
         (lambda: scene.number(None), "key is None"),  # type: ignore[arg-type]

@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from frisure._check import real, shown, text, unmasked, whole
+from frisure._check import path, real, shown, text, unmasked, whole
 from frisure._frisure import measure_photo
 from frisure.errors import ArgumentError
 from frisure.fits import Progress
@@ -104,6 +104,8 @@ def measure(
             )
     elif not isinstance(photo, (str, os.PathLike)):
         raise ArgumentError(f"photo is a {type(photo).__name__}; it must be a path or an array of uint8")
+    else:
+        path("photo", photo)
     scale = text("scale", scale, "a text such as '52 px/mm'")
     given: dict[str, Any] = {"hair_type": text("hair_type", hair_type, "the name of a hair type")}
     fibre = {"length": length, "diameter": diameter, "axis_ratio": axis_ratio, "youngs_modulus": youngs_modulus}

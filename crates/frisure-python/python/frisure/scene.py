@@ -190,7 +190,7 @@ class Scene(Section):
         elif isinstance(source, str) and "\n" in source:
             core = SceneText.parse(_text("scene", source), "<text>", within, False)
         elif isinstance(source, (str, os.PathLike)):
-            core = SceneText.read(Path(source))
+            core = SceneText.read(_path("scene", source))
         else:
             kind = type(source).__name__
             raise ArgumentTypeError(f"scene is of the type {kind}; it must be a Scene, a dict, a path or a text")
