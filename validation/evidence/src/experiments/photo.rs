@@ -326,6 +326,7 @@ fn reason(why: &Abstention) -> &'static str {
         Abstention::Aslant { .. } => "aslant",
         Abstention::Disagree { .. } | Abstention::Unsupported => "hairs off the wave",
         Abstention::Uncertain { .. } => "error bars too wide",
+        Abstention::Scale { .. } | Abstention::Short { .. } => "length of the hair",
     }
 }
 
