@@ -49,11 +49,18 @@ def test_a_lock_is_measured_from_an_array() -> None:
 
 
 def test_weight_is_taken_out() -> None:
-    lying, hanging = (frisure.measure(photo(), "10 px/mm", hang=hang, length=np.float32(0.12)) for hang in ("none", "down"))
+    lying, hanging = (frisure.measure(photo(), "10 px/mm", hang=hang, length=np.float32(0.2)) for hang in ("none", "down"))
     assert lying.curl_pitch is not None and hanging.curl_pitch is not None
     # What hangs is drawn out: without weight the curl is shorter.
     assert hanging.curl_pitch < lying.curl_pitch
     assert hanging.curl_radius_sd is not None and hanging.curl_radius_sd > 0
+
+
+def test_hair_is_no_shorter_than_what_is_seen_of_it() -> None:
+    short = frisure.measure(photo(), "10 px/mm", length=0.08)
+    assert not short and short.reason is not None and "80 mm" in short.reason
+    swapped = frisure.measure(photo(), "10 mm/px", hang="none")
+    assert not swapped and swapped.hint is not None and "scale" in swapped.hint
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell what is free")
