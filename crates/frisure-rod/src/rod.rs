@@ -219,7 +219,7 @@ impl Rod {
     }
 
     /// The moment that gradients are measured against: EI/L + ρ S g L² (N m), with the larger bending
-    /// stiffness, but at most [`STIFFEST`] times the smallest of the three. Beside the stiffness of a fibre that hardly
+    /// stiffness, but at most a hundred times the smallest of the three. Beside the stiffness of a fibre that hardly
     /// twists, or of one that hardly bends but twists, the moment of its weight would be small, and any shape would be at rest.
     #[must_use]
     pub fn moment_scale(&self) -> f64 {
