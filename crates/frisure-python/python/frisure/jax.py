@@ -117,4 +117,5 @@ def settle_with_energy(length: Any, **keywords: Any) -> _Rest:
     _autodiff.count({name: value.shape for name, value in arrays.items()})
     if not any(isinstance(value, jax.core.Tracer) for value in arrays.values()):
         rods._check(_doubles(arrays))
-    return _rest(tuple(sorted(options.items())), arrays)
+    found: _Rest = _rest(tuple(sorted(options.items())), arrays)
+    return found
