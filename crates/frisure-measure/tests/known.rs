@@ -146,7 +146,7 @@ fn a_length_that_cannot_be_is_told() {
     let rgb = drawn(&[Box::new(curve)]);
     let photo = Photo::new(WIDTH, HEIGHT, &rgb, None).unwrap();
     let found = |options: Options| measure(&photo, &options, &()).unwrap().result;
-    // 11 cm of picture, and a fifth more of hair.
+    // 11 cm of picture; 17 cm of hair, if it winds as a helix.
     for (length, refused) in [(0.05, true), (0.2, false)] {
         let result = found(Options { length: Some(length), ..options(Hang::Down) });
         assert_eq!(matches!(result, Err(Abstention::Short { .. })), refused, "{result:?}");

@@ -59,8 +59,12 @@ def text(name: str, value: Any, allowed: str = "a text") -> str:
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise ArgumentError(f"{name} is {shown(value)}; it has a lone surrogate, which is no character") from None
+        raise _lone_surrogate(name, value) from None
     return value
+
+
+def _lone_surrogate(name: str, value: Any) -> ArgumentError:
+    return ArgumentError(f"{name} is {shown(value)}; it has a lone surrogate, which is no character")
 
 
 def path(name: str, value: Any) -> Path:
@@ -70,7 +74,7 @@ def path(name: str, value: Any) -> Path:
     try:
         os.fsencode(value)
     except UnicodeEncodeError:
-        raise ArgumentError(f"{name} is {shown(value)}; it has a lone surrogate, which is no character") from None
+        raise _lone_surrogate(name, value) from None
     return Path(value)
 
 
