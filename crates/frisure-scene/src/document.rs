@@ -22,9 +22,6 @@ pub(crate) struct Document<'a> {
     numbers: BTreeMap<String, f64>,
 }
 
-/// What to try where gravity is written as a vector.
-const DIRECTION_OF_GRAVITY: &str = "`gravity` is a number; its direction is `down` of `[pose]`, such as `down = [0, 0, -1]` for a head that is upright";
-
 impl<'a> Document<'a> {
     /// Reads the TOML of a text, without numbers.
     ///
@@ -54,13 +51,7 @@ impl<'a> Document<'a> {
     }
 
     fn read_number(&self, path: &str, value: &Value, number: &Number) -> Result<f64> {
-        let value = (number.read)(value).map_err(|error| {
-            let error = match (path, value) {
-                ("gravity", Value::Array(_)) => error.hint(DIRECTION_OF_GRAVITY),
-                _ => error,
-            };
-            error.at_path(path, self.source)
-        })?;
+        let value = (number.read)(value).map_err(|error| error.at_path(path, self.source))?;
         match number.range {
             Some((range, true)) if !(range.min..=range.max).contains(&value) => {
                 Err(self.outside(path, range.allowed))

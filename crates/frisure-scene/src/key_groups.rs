@@ -36,6 +36,9 @@ pub const PATHS: [&str; 6] = [
     "light.environment",
 ];
 
+/// The keys about how the head is held.
+pub(crate) const POSE: [&str; 3] = ["pose.pitch", "pose.roll", "pose.down"];
+
 /// The keys about the sun of daylight.
 pub(crate) const SUN: [&str; 3] = ["light.sun_azimuth", "light.sun_elevation", "light.turbidity"];
 

@@ -26,8 +26,8 @@ use crate::keywords::{
     Places, ShadeWord, UnitWord, WettingWord,
 };
 use crate::kind::{
-    Acceleration, Angle, Colour, Count, Density, FaceSize, Flag, Length, Modulus, NumberDensity,
-    Pair, Point, Points, Ratio, Speed, Strain, Text, Vector, Velocity,
+    Angle, Colour, Count, Density, FaceSize, Flag, Gravity, Length, Modulus, NumberDensity, Pair,
+    Point, Points, Ratio, Speed, Strain, Text, Vector, Velocity,
 };
 use crate::operation::{Steps, Where};
 use crate::scene::Scene;
@@ -293,8 +293,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// all at the edge, with 1 three quarters; {}. Default 0.25.
         "implantation.baby_hairs" => number::<Ratio>()
             .slider(Panel::Implantation, "Baby hairs", PERCENT, (0.0, 100.0), 0, "Share of short thin hairs along the edge.");
-        /// Acceleration of gravity; {}. Default 9.81 m/s^2.
-        "gravity" => number::<Acceleration>()
+        /// Acceleration of gravity; {}. Default 9.81 m/s^2. Or the acceleration as a vector in the frame of the head, such as
+        /// [0, 0, -9.81], in place of `pose`.
+        "gravity" => number::<Gravity>()
             .slider(Panel::Surroundings, "Gravity", ACCELERATION, (0.0, 30.0), 2, "9.81 on Earth, 1.62 on the Moon.");
         /// How the head is held. Gravity turns in the frame of the head, which stays as it is: x to its left, y back, z up. Left
         /// out, the head is upright.

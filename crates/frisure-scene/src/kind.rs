@@ -230,6 +230,45 @@ impl ToText for Vector {
     }
 }
 
+/// Gravity (m/s²): its acceleration, or the acceleration as a vector in the frame of the head.
+pub(crate) struct Gravity;
+
+impl Gravity {
+    /// The acceleration as a vector, if it is written as one.
+    pub(crate) fn vector(value: &Value) -> Option<Result<DVec3, ValueError>> {
+        let read = |items: &Vec<Value>| {
+            let allowed = || {
+                let example =
+                    "an acceleration, such as \"9.81 m/s^2\", or three, such as [0, 0, -9.81]";
+                ValueError::new(example)
+            };
+            let [x, y, z] = items.as_slice() else { return Err(allowed()) };
+            let read = |value| read_quantity(value, &quantity::ACCELERATION).map_err(|_| allowed());
+            Ok(DVec3::new(read(x)?, read(y)?, read(z)?))
+        };
+        value.as_array().map(read)
+    }
+}
+
+impl Kind for Gravity {
+    type Value = f64;
+
+    fn read(value: &Value) -> Result<f64, ValueError> {
+        let Some(vector) = Self::vector(value) else { return Acceleration::read(value) };
+        let vector = vector?;
+        // The square of a large or small number would leave the range of numbers.
+        let largest = vector.abs().max_element();
+        Ok(if largest > 0.0 { largest * (vector / largest).length() } else { 0.0 })
+    }
+
+    fn schema() -> Schema {
+        json_schema!({
+            "type": ["number", "string", "array"], "items": { "type": ["number", "string"] }, "minItems": 3,
+            "maxItems": 3, "x-unit": "m/s^2", "examples": ["9.81 m/s^2", [0, 0, -9.81]],
+        })
+    }
+}
+
 /// Three lengths (m).
 pub(crate) struct Point;
 

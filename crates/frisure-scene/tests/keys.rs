@@ -155,6 +155,20 @@ fn only_what_was_set_changes_where_strains_give_way_to_a_helix() {
 }
 
 #[test]
+fn only_what_was_set_changes_where_gravity_is_a_vector() {
+    let text = "gravity = [0, 5, -5]\n";
+    let weaker = scene(&set(text, "gravity", "\"1.62 m/s^2\"")).hairstyle_spec().unwrap();
+    assert_eq!(weaker.gravity, 1.62);
+    assert!((weaker.pose.pitch + 45_f64.to_radians()).abs() < 1e-15);
+    let nods = scene(&set(text, "pose.pitch", "\"10 deg\"")).hairstyle_spec().unwrap();
+    assert_eq!(nods.gravity, 5.0 * 2.0_f64.sqrt());
+    assert!((nods.pose.pitch - 10_f64.to_radians()).abs() < 1e-15);
+    let held = "[pose]\npitch = 0.1\nroll = 0.2\n";
+    let upright = scene(&set(held, "gravity", "[0, 0, -1]")).hairstyle_spec().unwrap();
+    assert_eq!((upright.gravity, upright.pose.pitch, upright.pose.roll), (1.0, 0.0, 0.0));
+}
+
+#[test]
 fn what_cannot_be_said_is_refused_with_its_place() {
     let diagnostic = |text: &str, key: &str, value: &str| match set_key(text, key, value) {
         Err(EditError::Scene(error)) => error.diagnostic().unwrap().clone(),

@@ -6,7 +6,9 @@ use std::path::Path;
 
 use common::{diagnostic, good};
 use frisure_files::frame::{FrameChoice, UpAxis};
-use frisure_hairstyle::{Body, Ellipticity, Flow, Hairline, Hairs, Handedness, Lift, PRESETS};
+use frisure_hairstyle::{
+    Body, Ellipticity, Flow, Hairline, Hairs, Handedness, Lift, PRESETS, Pose,
+};
 use frisure_look::{
     Backdrop, Dye, Fade, Melanin, SHADES, absorption_of_colour, colour_of_temperature,
     linear_from_srgb,
@@ -519,6 +521,12 @@ fn heads_are_held_and_blown_upon() {
     let (sin, cos) = 30_f64.to_radians().sin_cos();
     let same = held(&format!("pose.down = [{sin}, 0, {}]", -cos)).pose;
     assert!((leans.roll - same.roll).abs() < 1e-12 && same.pitch.abs() < 1e-12);
+    // Gravity as a vector is both.
+    let moon = held("gravity = [0, 1.62, 0]");
+    assert_eq!((moon.gravity, moon.pose), (1.62, lies.pose));
+    let upright = held("gravity = ['0 m/s^2', 0, -3]");
+    assert_eq!((upright.gravity, upright.pose), (3.0, Pose::default()));
+    assert_eq!(held("gravity = [0, 0, 0]").gravity, 0.0);
     let blown = held("[wind]\nspeed = \"36 km/h\"\nazimuth = \"90 deg\"\nexposure = 0.5");
     assert!((blown.wind.speed - 10.0).abs() < 1e-12);
     // From the head's left to its right.

@@ -2,7 +2,8 @@
 
 use crate::declaration::without_index;
 use crate::exclusive::others;
-use crate::key_groups::{ENVIRONMENT, GROOM, HEAD, MAIN_LAMP, SUN};
+use crate::key_groups::{ENVIRONMENT, GROOM, HEAD, MAIN_LAMP, POSE, SUN};
+use crate::kind::{Acceleration, ToText, Vector};
 use crate::quantity::LENGTH;
 use crate::scene::Scene;
 
@@ -34,6 +35,8 @@ fn dependent_on_value(
         ("look.colour", Some(_)) => vec!["look.eumelanin", "look.pheomelanin", "look.white_share"],
         ("look.dye.colour", None) => vec!["look.dye.strength", "look.dye.regrowth"],
         ("camera.f_number", None) => vec!["camera.focus"],
+        // The direction of gravity is said once.
+        ("gravity", Some(value)) if value.starts_with('[') => POSE.to_vec(),
         ("head.mesh", None) => HEAD[1..].to_vec(),
         ("groom.file", None) => GROOM[1..].to_vec(),
         ("equilibrium.branch", None | Some("gravity")) => vec!["equilibrium.starts"],
@@ -77,12 +80,25 @@ fn without_lamps(setup: &str) -> Vec<&'static str> {
 }
 
 /// A key to add beside one that replaces others, so that nothing else changes: the pitch beside a radius
-/// that replaces strains, the shape of a section beside its size.
+/// that replaces strains, the shape of a section beside its size, the direction of gravity beside its number. `word` and `now` as in
+/// [`dependents`].
 pub(super) fn supplement(
     key: &str,
+    word: &str,
     scene: &Scene,
     gone: &[String],
+    now: impl Fn(&str) -> Option<String>,
 ) -> Option<(&'static str, String)> {
+    let is_vector = |value: &str| value.starts_with('[');
+    if (key == "gravity" && !is_vector(word) || POSE.contains(&key))
+        && now("gravity").as_deref().is_some_and(is_vector)
+    {
+        let (pose, gravity) = (scene.spec.pose.down(), scene.spec.gravity);
+        return Some(match key {
+            "gravity" => ("pose.down", Vector::text(&pose)),
+            _ => ("gravity", Acceleration::text(&gravity)),
+        });
+    }
     let was = |key: &str| gone.iter().any(|gone| gone == key);
     let strains = ["hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"].into_iter().any(was);
     let axes = was("hair.fibre.semi_axis_a") || was("hair.fibre.semi_axis_b");

@@ -73,8 +73,11 @@ pub fn set_keys(text: &str, changes: &[(&str, Option<&str>)]) -> Result<String> 
         }
         let given = |other: &&(&str, String)| !changes.iter().any(|(key, _)| *key == other.0);
         let other = scene.as_ref().filter(|_| value.is_some());
-        if let Some((other, value)) =
-            other.and_then(|s| supplement(key, s, &gone)).as_ref().filter(given)
+        if let Some((other, value)) = other
+            .zip(word)
+            .and_then(|(scene, word)| supplement(key, word, scene, &gone, |key| written(&now, key)))
+            .as_ref()
+            .filter(given)
         {
             now = inserted(&now, other, value)?;
             touched.push((*other).to_owned());

@@ -6,13 +6,16 @@ use frisure_files::read_text;
 use frisure_hairstyle::{HairModel, Hairline, HairstyleSpec, Pose, Wetting, preset};
 use frisure_look::{CameraSpec, ToneCurve};
 use frisure_rod::{Branch, Resolution};
+use glam::DVec3;
 
 use super::{hair, head, implantation, light, look, section};
 use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::{Result, SceneError};
+use crate::exclusive::check_given;
+use crate::key_groups::POSE;
 use crate::keywords::{BranchKind, FrictionWord, HairType, WettingWord};
-use crate::kind::{Count, Flag, Text, Vector};
+use crate::kind::{Count, Flag, Gravity, Text, Vector};
 use crate::natural_look::NaturalLook;
 use crate::scene::{HeadSource, MAX_SIZE, Output, Scene};
 use crate::schema::schema;
@@ -121,11 +124,25 @@ fn wetting(
 
 /// How the head is held, where the scene gives the direction of gravity; angles are [numbers](Document::set_fields).
 fn pose(document: &Document<'_>, default: Pose) -> Result<Pose> {
+    if let Some(vector) = document.value("gravity").and_then(Gravity::vector) {
+        let held = POSE.map(str::to_owned);
+        let held: Vec<_> = held.into_iter().filter(|key| document.has(key)).collect();
+        if !held.is_empty() {
+            check_given(document.source, &[vec!["gravity".to_owned()], held])?;
+        }
+        let vector = vector.map_err(|error| error.at_path("gravity", document.source))?;
+        // Without gravity every pose is the same.
+        return Ok(pose_of(vector).unwrap_or(default));
+    }
     let Some(down) = document.get::<Vector>("pose.down")? else { return Ok(default) };
-    // Its length means nothing; the square of a large or small one would leave the range of numbers.
+    pose_of(down).ok_or_else(|| document.outside("pose.down", "a vector that is not zero"))
+}
+
+/// The pose in which gravity pulls along a vector of any length but zero.
+fn pose_of(down: DVec3) -> Option<Pose> {
+    // The square of a large or small length would leave the range of numbers.
     let largest = down.abs().max_element();
-    let outside = || document.outside("pose.down", "a vector that is not zero");
-    Pose::of(down / largest).filter(|_| largest > 0.0).ok_or_else(outside)
+    Pose::of(down / largest).filter(|_| largest > 0.0)
 }
 
 fn equilibrium(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result<Branch> {
