@@ -5,11 +5,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_hairstyle::head::{Head, HeadError, Region, ScalpSource};
 use frisure_hairstyle::{
-    Body, Effort, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place,
+    Body, Curl, Effort, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place,
     PredictError, PredictOptions, RegionLength, RegionStyle, Start, StrandOptions, predict, preset,
     settling_report, strands as draw,
 };
 use frisure_progress::Progress;
+use frisure_rod::{AccuracyStatus, Options, Resolution, equilibrium};
 use frisure_strands::{AttributeValues, Strands, Surface};
 
 fn head() -> &'static Head {
@@ -381,7 +382,7 @@ fn more_hairs_than_can_be_drawn_are_refused() {
 /// A description of a few guides of fixed elements, with either contact between hairs.
 fn few(hair: HairContact) -> HairstyleSpec {
     let mut spec = small("caucasian-curly");
-    spec.equilibrium.resolution = frisure_rod::Resolution::Elements(15);
+    spec.equilibrium.resolution = Resolution::Elements(15);
     spec.contact.hair = hair;
     spec
 }
@@ -431,4 +432,39 @@ fn a_warm_start_finds_as_low_an_energy_in_as_many_calls_as_it_takes() {
     assert_eq!(report.stable, 40, "{report:?}");
     let above = (report.energy.total() - cold.energy.total()) / scale;
     assert!(above < 0.01, "{above}: {report:?} {cold:?}");
+}
+
+/// What a guide with contact shows is not extrapolated: the accuracy is that of its division.
+#[test]
+fn guides_are_as_near_to_the_exact_equilibrium_as_is_requested() {
+    for (accuracy, length, radius, pitch) in [
+        (5e-4, 0.545, 0.0388, 0.00662),
+        // These have more elements than extrapolation takes, with which some were farther.
+        (5e-5, 0.591, 0.0518, 0.0168),
+        (5e-6, 0.302, 0.0104, 0.0579),
+        // So tight that nothing is extrapolated.
+        (5e-4, 0.45, 0.0019, 0.0046),
+    ] {
+        let mut spec = small("caucasian-curly");
+        (spec.wisps.count, spec.contact.body) = (1, Body::None);
+        // Wisps without thickness, which nothing holds: by their weight alone, and not extrapolated.
+        (spec.contact.hair, spec.contact.volume) = (HairContact::Wisps, 0.0);
+        spec.implantation.hold = 0.0;
+        spec.length.mean = length;
+        spec.curl.strain = Curl::helix(radius, pitch).unwrap().strain;
+        spec.equilibrium.resolution = Resolution::Accuracy(accuracy);
+        for seed in 0..3 {
+            spec.seed = seed;
+            let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
+            let rest = &style.equilibria()[0];
+            assert_eq!(rest.certificate.accuracy, AccuracyStatus::Met, "{length} {seed}");
+            let options =
+                Options { resolution: Resolution::Accuracy(1e-2 * accuracy), ..Options::default() };
+            let exact = equilibrium(&rest.rod, &[], &options);
+            assert_eq!(exact.certificate.accuracy, AccuracyStatus::Met);
+            let (a, b) = (rest.centre_line(500), exact.centre_line(500));
+            let gap = a.iter().zip(&b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            assert!(gap <= accuracy, "{length} {seed}: {gap} m with {} elements", rest.elements);
+        }
+    }
 }

@@ -11,9 +11,12 @@ use crate::guides::Guide;
 use crate::head::Head;
 use crate::spec::{HairContact, HairstyleSpec};
 
-/// Most elements of a guide, whatever the accuracy.
+/// Most elements of a guide, whatever the accuracy: as many as a scene may ask for.
 /// A guard on time: an accuracy that needs more is not reached.
-pub const MOST_ELEMENTS: usize = 512;
+pub const MOST_ELEMENTS: usize = 1000;
+
+/// Most elements with which the error of a guide is sought by extrapolation. Chosen: a guard on time.
+pub(super) const MOST_EXTRAPOLATED: usize = 512;
 
 /// Relative gradient at which a guide is at rest. Far below what can be seen; chosen, not measured further.
 pub(super) const TOLERANCE: f64 = 1e-8;
@@ -32,7 +35,7 @@ pub(super) fn options(spec: &HairstyleSpec) -> Options {
     Options {
         resolution: spec.equilibrium.resolution,
         element: spec.equilibrium.element,
-        max_elements: MOST_ELEMENTS,
+        max_elements: MOST_EXTRAPOLATED,
         tolerance: TOLERANCE,
         max_iterations: MAX_ITERATIONS,
         longest_step: LONGEST_STEP,

@@ -6,7 +6,8 @@ use frisure_rod::{
 };
 
 use super::fields::{
-    MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, layer, options,
+    MAX_ITERATIONS, MOST_ELEMENTS, MOST_EXTRAPOLATED, along, body, body_samples, depth, layer,
+    options,
 };
 use super::friction_solver::{FrictionalRod, Hold, Rested};
 use super::letting_down::let_down;
@@ -368,21 +369,42 @@ fn settle_on_body(
 }
 
 /// The division of a guide, and whether it meets a requested accuracy. Extrapolation needs a smooth answer, and
-/// contact comes and goes: the division that the accuracy takes without contact is taken over.
+/// contact comes and goes: the division by itself is as accurate as that without contact.
 fn division(spec: &HairstyleSpec, guide: &Guide) -> (usize, AccuracyStatus) {
-    match spec.equilibrium.resolution {
-        Resolution::Elements(n) => (n, AccuracyStatus::NotRequested),
-        // An accuracy takes at least two doublings of the first division: more than that is not worth the search.
-        Resolution::Accuracy(_)
-            if 4 * spec.equilibrium.element.resolving_elements(&guide.rod) > MOST_ELEMENTS =>
-        {
-            (MOST_ELEMENTS, AccuracyStatus::Missed)
-        }
-        Resolution::Accuracy(_) => {
-            let alone = equilibrium(&guide.rod, &[], &options(spec));
-            (alone.elements, alone.certificate.accuracy)
-        }
+    let accuracy = match spec.equilibrium.resolution {
+        Resolution::Elements(n) => return (n, AccuracyStatus::NotRequested),
+        Resolution::Accuracy(accuracy) => accuracy,
+    };
+    let first = spec.equilibrium.element.resolving_elements(&guide.rod);
+    // 1. An accuracy by extrapolation takes at least two doublings of the first division. Where these are too many,
+    // one division and one doubling tell the error of the division.
+    let options = match 4 * first > MOST_EXTRAPOLATED {
+        false => options(spec),
+        true => Options {
+            resolution: Resolution::Elements((2 * first).min(MOST_ELEMENTS)),
+            estimate_error: true,
+            ..options(spec)
+        },
+    };
+    let alone = equilibrium(&guide.rod, &[], &options);
+    if alone.certificate.accuracy == AccuracyStatus::Missed {
+        return (alone.elements, AccuracyStatus::Missed);
     }
+    // 2. What is not extrapolated takes more elements than what is.
+    match alone.division_error().map(|error| divided_for(accuracy, alone.elements, error)) {
+        Some(elements) if elements <= MOST_ELEMENTS => (elements, AccuracyStatus::Met),
+        _ => (MOST_ELEMENTS, AccuracyStatus::Missed),
+    }
+}
+
+/// Order at which the error of a division decreases with the length of its elements: the second, read cautiously as a third
+/// for each doubling in place of a quarter.
+const CAUTIOUS_ORDER: f64 = 1.585;
+
+/// Elements with which an error (m) is within an accuracy (m), from the error with fewer.
+fn divided_for(accuracy: f64, elements: usize, error: f64) -> usize {
+    let times = (error / accuracy).max(1.0).powf(1.0 / CAUTIOUS_ORDER);
+    (elements as f64 * times).ceil() as usize
 }
 
 /// Settles a guide on ever harder bodies, each from the shape on the one before.

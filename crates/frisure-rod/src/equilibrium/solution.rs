@@ -124,6 +124,14 @@ impl Equilibrium {
         Chain::uniform(&self.rod, self.element, self.elements)
     }
 
+    /// Estimate of the largest distance (m) of the nodes of [`Self::shape`] from the exact equilibrium: of the division by itself,
+    /// without what extrapolation adds. `None` where [`Self::error_estimate`] is.
+    #[must_use]
+    pub fn division_error(&self) -> Option<f64> {
+        let shifts = self.correction.iter().flatten().map(|c| c.shift.length());
+        self.error_estimate.map(|estimate| estimate + shifts.fold(0.0, f64::max))
+    }
+
     /// Position of the tip (m).
     #[must_use]
     pub fn tip(&self) -> DVec3 {
