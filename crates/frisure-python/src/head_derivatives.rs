@@ -6,12 +6,12 @@ use frisure::hairstyle::contact::SwitchDistance;
 use frisure::hairstyle::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
 use frisure::progress::Cancelled;
 use frisure::rod::Rod;
-use frisure::rod::derivatives::{ParameterChange, Regularity, ShapeChange};
+use frisure::rod::derivatives::{ParameterChange, Regularity, ShapeChange, stiffness_of_section};
 use frisure_engine::Error;
 use frisure_engine::memory::{self, Work};
 use glam::DVec3;
 use numpy::ndarray::ArrayView2;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -47,14 +47,19 @@ type Nodes<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>);
 /// Distances of each guide (G, 3), and a flag for each (G,).
 type Switches<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<bool>>);
 
-/// The changes of G guides: of natural strain and of gravity (G, 3), of moduli and density (G, 3), of the stiffness of hair and of skin, a rotation.
-type Changes<'py> = (
-    PyReadonlyArray2<'py, f64>,
-    PyReadonlyArray2<'py, f64>,
-    PyReadonlyArray2<'py, f64>,
-    [f64; 2],
-    [f64; 3],
-);
+/// The changes of G guides with E elements in all, SI units: (G,) or (G, 3), and of the natural strain of each element (E, 3).
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Changes<'py> {
+    natural_strain: PyReadonlyArray2<'py, f64>,
+    element_strain: PyReadonlyArray2<'py, f64>,
+    youngs_modulus: PyReadonlyArray1<'py, f64>,
+    shear_modulus: PyReadonlyArray1<'py, f64>,
+    density: PyReadonlyArray1<'py, f64>,
+    diameter: PyReadonlyArray1<'py, f64>,
+    axis_ratio: PyReadonlyArray1<'py, f64>,
+    gravity_vector: PyReadonlyArray2<'py, f64>,
+}
 
 #[pymethods]
 impl HeadAtRest {
@@ -126,16 +131,24 @@ impl HeadAtRest {
         kept.arrays(py, &gradient)
     }
 
-    /// How the nodes move along a change, and how their frames turn, (N, 3).
-    #[pyo3(signature = (changes, progress))]
+    /// How the nodes move along a change, and how their frames turn, (N, 3). `contact` are the stiffnesses of hair and of skin.
+    #[pyo3(signature = (changes, contact, rotation, progress))]
     fn jvp<'py>(
         &self,
         py: Python<'py>,
         changes: Changes<'py>,
+        contact: [f64; 2],
+        rotation: [f64; 3],
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
         let kept = Arc::clone(&self.0);
-        let change = kept.change(&changes)?;
+        let [hair_stiffness, skin_stiffness] = contact;
+        let change = HeadChange {
+            guides: kept.changes(&changes)?,
+            hair_stiffness,
+            skin_stiffness,
+            rotation: DVec3::from_array(rotation),
+        };
         let moved = work::run(py, progress, move |_| kept.sensitivity.jvp(&change).map_err(told))?;
         let positions = rows(py, moved.iter().flat_map(|change| &change.positions))?;
         Ok([positions, rows(py, moved.iter().flat_map(|change| &change.rotations))?])
@@ -154,30 +167,35 @@ impl Kept {
         self.nodes.iter().map(of).collect()
     }
 
-    fn change(&self, changes: &Changes<'_>) -> PyResult<HeadChange> {
-        let (strain, gravity, material, [hair_stiffness, skin_stiffness], rotation) = changes;
-        let [strain, gravity, material] =
-            [strain, gravity, material].map(|given| vectors(given.as_array(), self.rods.len()));
-        let (strain, gravity, material) = (strain?, gravity?, material?);
+    fn changes(&self, changes: &Changes<'_>) -> PyResult<Vec<ParameterChange>> {
+        let guides = self.rods.len();
+        let strain = vectors(changes.natural_strain.as_array(), guides)?;
+        let gravity = vectors(changes.gravity_vector.as_array(), guides)?;
+        let elements = self.nodes.iter().sum::<usize>() - guides;
+        let each = vectors(changes.element_strain.as_array(), elements)?;
+        let mut each = each.as_slice();
         let guide = |(i, rod): (usize, &Rod)| {
-            let (k, of, section) = (rod.stiffness(), rod.spec().material, rod.spec().section);
-            let [youngs_modulus, shear_modulus, density] = material[i].to_array();
-            let bending = youngs_modulus / of.youngs_modulus();
-            // ρ S g: of a change of the density and of gravity.
-            let load = rod.spec().load.gravity * density + gravity[i] * of.density();
+            let (of, section) = (rod.spec().material, rod.spec().section);
+            let at = |change: &PyReadonlyArray1<'_, f64>| change.as_array()[i];
+            let wider = at(&changes.diameter) / (2.0 * section.mean_radius());
+            let flatter = at(&changes.axis_ratio) / (section.a() / section.b());
+            let bending = at(&changes.youngs_modulus) / of.youngs_modulus();
+            let twisting = at(&changes.shear_modulus) / of.shear_modulus();
+            // ρ S g, of which S is as the square of the diameter.
+            let heavier = at(&changes.density) + 2.0 * wider * of.density();
+            let load = rod.spec().load.gravity * heavier + gravity[i] * of.density();
+            let (own, others) = each.split_at(self.nodes[i] - 1);
+            each = others;
             ParameterChange {
-                natural_strain: vec![strain[i]; self.nodes[i] - 1],
-                stiffness: k * DVec3::new(bending, bending, shear_modulus / of.shear_modulus()),
+                natural_strain: own.iter().map(|change| *change + strain[i]).collect(),
+                stiffness: rod.stiffness()
+                    * (DVec3::new(bending, bending, twisting)
+                        + stiffness_of_section(rod, wider, flatter)),
                 load: load * section.area(),
                 ..ParameterChange::default()
             }
         };
-        Ok(HeadChange {
-            guides: self.rods.iter().enumerate().map(guide).collect(),
-            hair_stiffness: *hair_stiffness,
-            skin_stiffness: *skin_stiffness,
-            rotation: DVec3::from_array(*rotation),
-        })
+        Ok(self.rods.iter().enumerate().map(guide).collect())
     }
 
     fn arrays<'py>(&self, py: Python<'py>, gradient: &HeadGradient) -> PyResult<Gradient<'py>> {

@@ -105,13 +105,9 @@ class HeadAtRest:
     ]: ...
     def jvp(
         self,
-        changes: tuple[
-            NDArray[np.float64],
-            NDArray[np.float64],
-            NDArray[np.float64],
-            tuple[float, float],
-            tuple[float, float, float],
-        ],
+        changes: Mapping[str, NDArray[np.float64]],
+        contact: tuple[float, float],
+        rotation: tuple[float, float, float],
         progress: _Progress | None,
     ) -> list[NDArray[np.float64]]: ...
 
@@ -149,7 +145,9 @@ class RodsAtRest:
         self,
         changes: Mapping[str, NDArray[np.float64] | None],
         progress: _Progress | None,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]: ...
+    ) -> tuple[
+        NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_]
+    ]: ...
 
 def after_fork() -> None: ...
 def check_room(things: str, count: int, each: float) -> None: ...

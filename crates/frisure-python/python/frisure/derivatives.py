@@ -141,34 +141,36 @@ class HeadDerivatives:
         self,
         *,
         natural_strain: ArrayLike = 0.0,
+        element_strain: ArrayLike = 0.0,
         youngs_modulus: ArrayLike = 0.0,
         shear_modulus: ArrayLike = 0.0,
         density: ArrayLike = 0.0,
+        diameter: ArrayLike = 0.0,
+        axis_ratio: ArrayLike = 0.0,
         gravity_vector: ArrayLike = 0.0,
         hair_stiffness: float = 0.0,
         skin_stiffness: float = 0.0,
         rotation: ArrayLike = 0.0,
         progress: Progress | None = None,
     ) -> HeadMotion:
-        """How the nodes move along a change, whose parts are named as in `HeadGradient`: each is one for all guides or one for each, (G,) or (G, 3)."""
+        """How the nodes move along a change, whose parts are named as in `HeadGradient`: each is one for all guides or one for each, (G,) or (G, 3),
+        and `element_strain` one for all elements or one for each, (E, 3)."""
         count = len(self)
-        material = [
-            _shaped(name, value, (count,))
-            for name, value in (("youngs_modulus", youngs_modulus), ("shear_modulus", shear_modulus), ("density", density))
-        ]
+        elements = len(self.points) - count
+        fibre = {
+            "youngs_modulus": youngs_modulus, "shear_modulus": shear_modulus, "density": density, "diameter": diameter,
+            "axis_ratio": axis_ratio,
+        }
         x, y, z = (float(part) for part in _shaped("rotation", rotation, (3,)))
         contact = (
             real("hair_stiffness", hair_stiffness, "a finite number of Pa"),
             real("skin_stiffness", skin_stiffness, "a finite number of Pa"),
         )
-        changes = (
-            _shaped("natural_strain", natural_strain, (count, 3)),
-            _shaped("gravity_vector", gravity_vector, (count, 3)),
-            np.stack(material, axis=1),
-            contact,
-            (x, y, z),
-        )
-        points, frames = self._at_rest.jvp(changes, progress)
+        changes = {name: _shaped(name, value, (count,)) for name, value in fibre.items()}
+        changes["natural_strain"] = _shaped("natural_strain", natural_strain, (count, 3))
+        changes["element_strain"] = _shaped("element_strain", element_strain, (elements, 3))
+        changes["gravity_vector"] = _shaped("gravity_vector", gravity_vector, (count, 3))
+        points, frames = self._at_rest.jvp(changes, contact, (x, y, z), progress)
         return HeadMotion(points, frames)
 
 

@@ -102,19 +102,23 @@ class Motion:
     - `points` (H, P, 3), m: how far each node moves, per unit of the change.
     - `frames` (H, P, 3), rad: the rotation of the frame of each node (world).
     - `energy` (H,), J: by how much `Settled.energy` changes.
+    - `regular` (H,) bool: whether `Settled.eigenvalue` is at least 1e-3 and all numbers are finite. False means a fold (or another loss of stability)
+      is near: there a rod moves far, and as given for tiny changes only, towards the fold for none.
     - `exists` (H,) bool: whether the shape is a minimum and has derivatives; where not, nothing moves.
     """
 
     points: Float64
     frames: Float64
     energy: Float64
+    regular: NDArray[np.bool_]
     exists: NDArray[np.bool_]
 
     def __len__(self) -> int:
         return len(self.points)
 
     def __repr__(self) -> str:
-        return f"<frisure.rods.Motion: {int(self.exists.sum())} of {len(self)} rods with derivatives, points {self.points.shape}>"
+        regular, exists = int(self.regular.sum()), int(self.exists.sum())
+        return f"<frisure.rods.Motion: {exists} of {len(self)} rods with derivatives, {regular} regular, points {self.points.shape}>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +141,8 @@ class Settled:
 
     - `points` (H, P, 3), m: nodes from root to tip; None with `points=False`.
     - `energy` (H,), J: elastic energy and that of the weight.
-    - `stable` (H,) bool: whether the shape is a minimum of the energy.
+    - `stable` (H,) bool: whether the shape is known to be a minimum of the energy; never where the weight is more than 1e10 times the stiffness
+      (ρSgL³/EI with the smaller EI), whose shapes rounding decides.
     - `gradient_norm` (H,): largest derivative of the energy by a turn, as a fraction of EI/L + ρSgL² (N m).
     - `iterations` (H,) uint32: iterations of the solver.
     - `error` (H,), m: estimated largest error of a node from the division into elements; None without `error=True`.
@@ -554,7 +559,7 @@ def settle(
     }
     arrays = settle_rods(count, fibres, clamped, options, progress)
     settled, rods = Settled(*arrays[:-1]), arrays[-1]
-    if rods is not None:
+    if rods is not None and options["derivatives"]:
         # Copies: the caller may change the arguments before it asks for derivatives.
         radii, pitches = (clamped[name].copy() for name in ("curl_radius", "curl_pitch"))
         strains = 0 if natural_strain is None else clamped["natural_strain"].shape[1]

@@ -45,11 +45,12 @@ type Arrays<'py> = (
     Bound<'py, PyArray1<bool>>,
 );
 
-/// How nodes and their frames move (H, P, 3), by how much the energy changes, and whether there are derivatives (H,).
+/// How nodes and their frames move (H, P, 3), by how much the energy changes, whether the derivatives are regular, and whether there are any (H,).
 type Motions<'py> = (
     Bound<'py, PyArray3<f64>>,
     Bound<'py, PyArray3<f64>>,
     Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<bool>>,
     Bound<'py, PyArray1<bool>>,
 );
 
@@ -143,6 +144,7 @@ impl RodsAtRest {
             PyArray1::from_vec(py, moved.points).reshape(shape)?,
             PyArray1::from_vec(py, moved.frames).reshape(shape)?,
             PyArray1::from_vec(py, moved.energy),
+            PyArray1::from_vec(py, moved.regular),
             PyArray1::from_vec(py, moved.exists),
         ))
     }

@@ -2,7 +2,9 @@
 
 use frisure::progress::{Cancelled, Progress, StageCounter};
 use frisure::rod::batch::{Batch, BatchGradient, BatchLoss, BatchSolution, Direction, NodeMotion};
-use frisure::rod::derivatives::{ParameterChange, Sensitivity};
+use frisure::rod::derivatives::{
+    LEAST_EIGENVALUE, ParameterChange, Sensitivity, stiffness_of_section,
+};
 use frisure::rod::minimise::Problem;
 use frisure::rod::{Chain, ElementKind, Rod};
 use frisure_engine::Error;
@@ -68,7 +70,8 @@ pub(super) struct Moved {
     pub(super) frames: Vec<f64>,
     /// Changes of the energy (J).
     pub(super) energy: Vec<f64>,
-    /// Whether each rod has derivatives.
+    /// Whether each rod is far from a loss of stability, and whether it has derivatives.
+    pub(super) regular: Vec<bool>,
     pub(super) exists: Vec<bool>,
 }
 
@@ -146,17 +149,11 @@ impl OwnedChanges {
         let heavier = self.density.at(index) / material.density();
         let gravity = spec.load.gravity.length();
         let stronger = if gravity > 0.0 { self.gravity.at(index) / gravity } else { 0.0 };
-        // With the diameter d and the axis ratio q: S is as d², I1 as d⁴/q, I2 as d⁴q, J as d⁴/(q + 1/q).
-        let square = axis_ratio * axis_ratio;
-        let rounder = (square - 1.0) / (square + 1.0);
-        let bending = stiffer + 4.0 * wider;
         Direction {
             natural_strain: self.strain.at(index, self.strains).to_vec(),
-            stiffness: DVec3::new(
-                bending - flatter,
-                bending + flatter,
-                shear + 4.0 * wider - rounder * flatter,
-            ),
+            stiffness: DVec3::new(stiffer, stiffer, shear)
+                + stiffness_of_section(rod, wider, flatter),
+            // The area of the section is as the square of its diameter.
             weight: heavier + 2.0 * wider + stronger,
             length: self.length.at(index) / rod.length(),
             root_rotation: self.root_rotation.one(index) + turned,
@@ -190,29 +187,35 @@ pub(super) fn of(
         let ones = vec![1.0; rods.len()];
         let loss = BatchLoss { energies: &ones, ..BatchLoss::default() };
         let energies = Batch::default().vjp(rods, found, loss);
+        let least = found.min_eigenvalues(rods);
         let moved = |i: usize| {
             let direction = changes.direction(&rods[i], &kept.clamps, first + i);
             let motions = one(&rods[i], found, i, changes, (first + i, &direction))?;
             let load = changes.load(&rods[i], first + i);
-            Some((motions, energy(&rods[i], &energies, i, &direction, load)))
+            let energy = energy(&rods[i], &energies, i, &direction, load);
+            let finite =
+                |motion: &NodeMotion| motion.shift.is_finite() && motion.rotation.is_finite();
+            let regular = least[i] >= LEAST_EIGENVALUE && motions.iter().all(finite);
+            Some((motions, energy, regular))
         };
-        let moved: Vec<Option<(Vec<NodeMotion>, f64)>> = (0..rods.len()).map(moved).collect();
+        let moved: Vec<Option<_>> = (0..rods.len()).map(moved).collect();
         stage.advance();
         Ok::<_, Cancelled>(moved)
     });
     let moved: Vec<_> = moved.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     let exists = moved.iter().map(Option::is_some).collect();
     let still = vec![NodeMotion::default(); nodes];
-    let energy = moved.iter().map(|moved| moved.as_ref().map_or(0.0, |(_, energy)| *energy));
+    let energy = moved.iter().map(|moved| moved.as_ref().map_or(0.0, |(_, energy, _)| *energy));
     let energy = energy.collect();
+    let regular = moved.iter().map(|moved| matches!(moved, Some((_, _, true)))).collect();
     let motions =
-        moved.iter().flat_map(|moved| moved.as_ref().map_or(&still, |(motions, _)| motions));
+        moved.iter().flat_map(|moved| moved.as_ref().map_or(&still, |(motions, _, _)| motions));
     let (mut points, mut frames) = (Vec::new(), Vec::new());
     for motion in motions {
         points.extend(motion.shift.to_array());
         frames.extend(motion.rotation.to_array());
     }
-    Ok(Moved { points, frames, energy, exists })
+    Ok(Moved { points, frames, energy, regular, exists })
 }
 
 /// By how much the energy of a rod changes (J) along a direction and a change of its load (N/m), from its derivatives; `place` as in [`one`].

@@ -11,7 +11,7 @@ mod sensitivity;
 
 use thiserror::Error;
 
-pub use parameters::{ParameterChange, ParameterGradient, ShapeChange};
+pub use parameters::{ParameterChange, ParameterGradient, ShapeChange, stiffness_of_section};
 pub use sensitivity::Sensitivity;
 
 /// Gradient, relative to the moment scale, above which a shape is not at rest. Chosen: far above rounding.
@@ -19,7 +19,7 @@ pub(crate) const AT_REST: f64 = 1e-9;
 
 /// Smallest eigenvalue, relative to the elastic energy, below which derivatives are [`Regularity::IllConditioned`]. Chosen; of the
 /// hairs that were compared with differences some have 0.04.
-pub(crate) const LEAST_EIGENVALUE: f64 = 1e-3;
+pub const LEAST_EIGENVALUE: f64 = 1e-3;
 
 /// Why an equilibrium has no derivatives.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]

@@ -57,6 +57,20 @@ pub struct ParameterGradient {
     pub root_rotation: DVec3,
 }
 
+/// Relative change of the stiffnesses E I1, E I2, μ J of a rod where the mean diameter 2√(ab) and the axis ratio a/b of its section
+/// change by these fractions of themselves.
+#[must_use]
+pub fn stiffness_of_section(rod: &Rod, diameter: f64, axis_ratio: f64) -> DVec3 {
+    // With the diameter d and the axis ratio q: I1 is as d⁴/q, I2 as d⁴q, J as d⁴/(q + 1/q) or, polar, d⁴(q + 1/q).
+    let section = rod.spec().section;
+    let square = (section.a() / section.b()).powi(2);
+    let rounder = match rod.spec().torsion {
+        TorsionConstant::SaintVenant => (1.0 - square) / (square + 1.0),
+        TorsionConstant::Polar => (square - 1.0) / (square + 1.0),
+    };
+    DVec3::splat(4.0 * diameter) + DVec3::new(-1.0, 1.0, rounder) * axis_ratio
+}
+
 impl ParameterGradient {
     /// The derivative along a change.
     #[must_use]
