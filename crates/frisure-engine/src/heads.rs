@@ -94,7 +94,7 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
         Stance::Lies(upright) if file.turn.is_none() => return Err(lies(scene, upright)),
         // Who turns a head has looked at it, so it is taken; but it is said.
         Stance::Lies(_) => Some(LIES.to_owned()),
-        Stance::Leans(upright) if file.turn.is_none() => Some(leans(upright)),
+        Stance::Leans(upright) if file.turn.is_none() => Some(leans(&upright)),
         Stance::Leans(_) | Stance::Upright => None,
     };
     let notes: Vec<String> = [note, lies, holes(&head)].into_iter().flatten().collect();
@@ -103,16 +103,17 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
 }
 
 /// The warning about a head that was turned and does not stand upright.
-const LIES: &str = "warning: turned by `head.turn`, the head does not stand upright with its face to the front: hair may grow where no scalp is";
+const LIES: &str = "warning: turned by `head.turn`, the head does not stand upright with its face to the front. Its scalp is sought where it lies; \
+                    partings and directions of growth may be askew";
 
 /// The warning about a head that leans, with the turn that stands it up.
-fn leans(upright: DMat3) -> String {
-    let [x, y, z] = turn_of(upright);
-    let (_, angle) = DQuat::from_mat3(&upright).to_axis_angle();
+fn leans(upright: &DMat3) -> String {
+    let [x, y, z] = turn_of(*upright);
+    let (_, angle) = DQuat::from_mat3(upright).to_axis_angle();
     let angle = angle.to_degrees();
     format!(
-        "warning: the head leans by about {angle:.0} degrees from how an average one is held: hair may grow where no scalp is, such as down \
-         the neck. `turn = [{x}, {y}, {z}]` in `[head]` stands it up; `turn = [0, 0, 0]` takes it as it is"
+        "warning: the head leans by about {angle:.0} degrees from how an average one is held. Its scalp is sought where it leans to, and its hair \
+         falls as it leans. `turn = [{x}, {y}, {z}]` in `[head]` stands it up; `turn = [0, 0, 0]` takes it as it is without this warning"
     )
 }
 

@@ -19,6 +19,9 @@ use crate::runner::LoadedScene;
 pub struct HairstyleReport {
     /// Name of the scene; may be empty.
     pub scene: String,
+    /// What was guessed of the head, and warnings about it, a line each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub head_notes: Vec<String>,
     /// Name of the hair type.
     pub hair_type: &'static str,
     /// Seed of all randomness.
@@ -299,6 +302,7 @@ impl LoadedScene {
         let simulation = drawn.map(|drawn| drawn.simulation).filter(|s| s.hairs > 0);
         HairstyleReport {
             scene: self.scene.name.clone(),
+            head_notes: self.note.iter().flat_map(|note| note.lines()).map(str::to_owned).collect(),
             hair_type: self.scene.hair_type,
             seed: spec.seed,
             guides: GuideReport {
@@ -353,8 +357,9 @@ impl GuideReport {
     }
 }
 
-/// The status of guides.
-fn status(settling: &SettlingReport) -> &'static str {
+/// The status of guides: the first that holds of those of [`GuideReport::status`].
+#[must_use]
+pub fn status(settling: &SettlingReport) -> &'static str {
     match settling {
         SettlingReport { not_converged: 1.., .. } => "not converged",
         SettlingReport { saddles: 1.., .. } => "on a saddle",

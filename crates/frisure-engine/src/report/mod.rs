@@ -5,6 +5,6 @@ mod step;
 
 pub use hairstyle::{
     ContactReport, DEEP, EnergyReport, GuideReport, HairstyleReport, SimulationReport,
-    StrandContactReport, ThicknessReport, VolumeReport, WetLockReport,
+    StrandContactReport, ThicknessReport, VolumeReport, WetLockReport, status,
 };
 pub use step::{CutReport, StepReport};

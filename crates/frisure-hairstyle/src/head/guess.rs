@@ -1,12 +1,31 @@
 //! Finding the landmarks of an unknown head.
 
 use frisure_strands::Surface;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::landmarks::Landmarks;
 
 impl Landmarks {
-    /// Measures a head mesh in our frame (m), of any size near human.
+    /// Measures a head mesh in our frame (m), of any size near human, that `upright` stands upright.
+    pub(crate) fn guess_leaning(surface: &Surface, upright: DMat3) -> Self {
+        let turned = surface.positions().iter().map(|p| upright * *p).collect();
+        let turned = Surface::new(turned, surface.triangles().to_vec());
+        let marks = Self::guess(&turned.expect("a rotation keeps a surface valid"));
+        let back = |p: DVec3| upright.transpose() * p;
+        Self {
+            cranium_centre: back(marks.cranium_centre),
+            whorl: back(marks.whorl),
+            upright,
+            face: back(marks.face),
+            hairline: back(marks.hairline),
+            brow: back(marks.brow),
+            ear: back(marks.ear),
+            nape: back(marks.nape),
+            ..marks
+        }
+    }
+
+    /// Measures a head mesh in our frame (m), of any size near human, that stands upright.
     pub(crate) fn guess(surface: &Surface) -> Self {
         let (low, high) = surface.bounds();
         let (middle, top) = (0.5 * (low.x + high.x), high.z);
@@ -76,6 +95,7 @@ impl Cranium {
             cranium_centre: centre,
             cranium_radii: DVec3::new(self.half_width, self.half_depth, ABOVE_CENTRE * scale),
             whorl: skin(at(0.0, -0.069, 0.079)),
+            upright: DMat3::IDENTITY,
             face: -DVec3::Y,
             width: 2.0 * self.half_width,
             hairline: skin(DVec3::new(middle, centre.y - 0.083 * scale, brow_z + 0.056 * scale)),

@@ -1,10 +1,10 @@
 //! Where things are on a head.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::math::smooth_step;
 
-/// Places on a head (m) that other parts measure from. The head looks towards −y, left is +x, and
+/// Places on a head (m) that other parts measure from. Once it is [upright](Self::upright), the head looks towards −y, left is +x, and
 /// the two sides are taken as mirror images about the plane through the cranium's centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landmarks {
@@ -14,6 +14,8 @@ pub struct Landmarks {
     pub cranium_radii: DVec3,
     /// Where the hair turns at the crown, on the skin (m).
     pub whorl: DVec3,
+    /// Rotation that stands the head upright; none for heads that stand, as far as can be told.
+    pub upright: DMat3,
     /// Unit vector from the centre to the face.
     pub face: DVec3,
     /// Greatest width of the head without the ears (m).
@@ -55,10 +57,15 @@ impl Region {
 }
 
 impl Landmarks {
+    /// `p` (m) relative to the cranium's centre, once the head is upright: to its left, back and up (m).
+    pub(crate) fn local(&self, p: DVec3) -> DVec3 {
+        self.upright * (p - self.cranium_centre)
+    }
+
     /// `p` (m) relative to the cranium, in its radii: its surface is near length 1 above the ears.
     #[must_use]
     pub fn normalized(&self, p: DVec3) -> DVec3 {
-        (p - self.cranium_centre) / self.cranium_radii
+        self.local(p) / self.cranium_radii
     }
 
     /// The size of the head over that of the mannequin.
@@ -69,28 +76,28 @@ impl Landmarks {
     /// Distance of a point (m) from the middle of the ear beside it, seen from the side, over that of the ear's outline there: an
     /// ellipse of 26 × 38 mm, longer than the ear because hair grows around it. Chosen by eye.
     pub(crate) fn about_ear(&self, p: DVec3) -> f64 {
-        let d = p - self.ear;
+        let d = self.upright * (p - self.ear);
         (d.y / EAR[0]).hypot(d.z / EAR[1]) / self.scale()
     }
 
     /// Distance (m) of a point beside an ear from its outline, towards the middle of the ear; negative on it.
     pub(crate) fn off_ear(&self, p: DVec3) -> f64 {
-        let d = p - self.ear;
+        let d = self.upright * (p - self.ear);
         d.y.hypot(d.z) * (1.0 - 1.0 / self.about_ear(p).max(1e-9))
     }
 
-    /// Angle about the vertical (rad): 0 at the face, π/2 at the left ear, −π/2 at the right, ±π
+    /// Angle about the vertical of the upright head (rad): 0 at the face, π/2 at the left ear, −π/2 at the right, ±π
     /// behind.
     #[must_use]
     pub fn azimuth(&self, p: DVec3) -> f64 {
-        let d = p - self.cranium_centre;
+        let d = self.local(p);
         d.x.atan2(-d.y)
     }
 
     /// Angle above the horizontal plane through the cranium's centre (rad).
     #[must_use]
     pub fn elevation(&self, p: DVec3) -> f64 {
-        let d = p - self.cranium_centre;
+        let d = self.local(p);
         d.z.atan2(d.x.hypot(d.y))
     }
 

@@ -37,6 +37,7 @@ pub(crate) fn landmarks() -> Landmarks {
     Landmarks {
         cranium_centre: DVec3::ZERO,
         cranium_radii: dvec3(0.0775, 0.0975, 0.11),
+        upright: DMat3::IDENTITY,
         whorl: at(0.0, -6.9, 8.0),
         face: -DVec3::Y,
         width: 0.155,

@@ -65,6 +65,7 @@ pub struct Head {
     natural: bool,
     landmarks: Landmarks,
     signed_distance: SignedDistance,
+    stance: Stance,
     spheres: Derived<Vec<Sphere>>,
     fingerprint: u64,
     frame: (DVec3, DVec3),
@@ -115,6 +116,16 @@ pub enum HeadError {
         /// Height of the mesh (m).
         size: f64,
     },
+    /// More faces meet at a vertex than at any of a head.
+    #[error(
+        "{faces} faces meet at vertex {vertex}; there may be {MOST_FACES}. Divide them into rings"
+    )]
+    Fan {
+        /// Index of the vertex, from 0.
+        vertex: usize,
+        /// Faces that have it as a corner.
+        faces: usize,
+    },
     /// The mesh is too far from the origin for the precision of strands.
     #[error("the mesh reaches {distance} m from the origin; it must stay within 100 m. Centre it")]
     Distance {
@@ -128,6 +139,9 @@ const MANNEQUIN: &str = "mannequin";
 
 /// Farthest (m) from the origin that a head may be: there a strand's `f32` still tells 8 µm.
 const FARTHEST: f64 = 100.0;
+
+/// Most faces that meet at a vertex: each knows the others, which takes 100 MB then. Chosen; a sphere has some hundred at a pole.
+const MOST_FACES: usize = 5000;
 
 /// Lowest and greatest height of a mesh (m) that may be a human head or bust.
 const HEIGHTS: std::ops::RangeInclusive<f64> = 0.08..=2.5;
@@ -144,7 +158,7 @@ impl Head {
             SignedDistance::with_torso(&surface, mannequin::NECK, Some(mannequin::FRAME));
         let features = mannequin::features(&surface, &distance);
         let surface = surface.with_features(features).expect("a tint for each vertex");
-        let head = Self::assemble(surface, scalp, true, landmarks, distance);
+        let head = Self::assemble(surface, scalp, true, landmarks, distance, Stance::Upright);
         Self { frame: mannequin::FRAME, ..head }
     }
 
@@ -174,10 +188,11 @@ impl Head {
         let distance = SignedDistance::with_torso(&person.surface, neck, None);
         let surface = person.surface.clone();
         let surface = surface.with_features(person.features(&distance)).ok()?;
-        Some(Self::assemble(surface, scalp, true, landmarks, distance))
+        Some(Self::assemble(surface, scalp, true, landmarks, distance, Stance::Upright))
     }
 
-    /// A head from a mesh (m, z up, face towards −y), which may be open at the shoulders.
+    /// A head from a mesh (m, z up, face towards −y), which may be open at the shoulders. Of one that leans or lies, as [`Self::stance`]
+    /// tells, the landmarks and the scalp lie with it.
     ///
     /// # Errors
     /// [`HeadError`], if the mesh cannot be a human head, the weights are not one number 0..1 per
@@ -192,7 +207,17 @@ impl Head {
         if distance > FARTHEST {
             return Err(HeadError::Distance { distance });
         }
-        let landmarks = Landmarks::guess(&surface);
+        if let Some((vertex, faces)) = largest_fan(&surface).filter(|fan| fan.1 > MOST_FACES) {
+            return Err(HeadError::Fan { vertex, faces });
+        }
+        let signed_distance = SignedDistance::new(&surface);
+        let stance = upright::stance(&surface, &signed_distance);
+        let landmarks = match stance {
+            Stance::Upright => Landmarks::guess(&surface),
+            Stance::Leans(upright) | Stance::Lies(upright) => {
+                Landmarks::guess_leaning(&surface, upright)
+            }
+        };
         let natural = scalp == ScalpSource::Guess;
         let scalp = match scalp {
             ScalpSource::Guess => scalp::weights(&surface, &landmarks),
@@ -204,8 +229,7 @@ impl Head {
         if let Some(distance) = holes::floating_scalp(&surface, &scalp).filter(|_| !natural) {
             return Err(HeadError::FloatingScalp { distance });
         }
-        let distance = SignedDistance::new(&surface);
-        Ok(Self::assemble(surface, scalp, natural, landmarks, distance))
+        Ok(Self::assemble(surface, scalp, natural, landmarks, signed_distance, stance))
     }
 
     fn assemble(
@@ -214,11 +238,22 @@ impl Head {
         natural: bool,
         landmarks: Landmarks,
         signed_distance: SignedDistance,
+        stance: Stance,
     ) -> Self {
         let spheres = Derived::new();
         let fingerprint = fingerprint(&surface, &scalp);
         let frame = surface.bounds();
-        Self { frame, surface, scalp, natural, landmarks, signed_distance, spheres, fingerprint }
+        Self {
+            frame,
+            surface,
+            scalp,
+            natural,
+            landmarks,
+            signed_distance,
+            stance,
+            spheres,
+            fingerprint,
+        }
     }
 
     /// Smallest and largest corner of the box (m) by which places are put in order: that of the mesh, and of the mannequin
@@ -258,7 +293,7 @@ impl Head {
     /// Whether the head stands upright with its face towards −y, and the rotation that would make it.
     #[must_use]
     pub fn stance(&self) -> Stance {
-        upright::stance(&self.surface, &self.signed_distance)
+        self.stance
     }
 
     /// The holes of the mesh where hair grows: none grows in them, and hair falls into the head. `None` without any.
@@ -292,6 +327,16 @@ fn fingerprint(surface: &Surface, scalp: &[f64]) -> u64 {
         .key()
 }
 
+/// The vertex at which most faces meet, and how many.
+fn largest_fan(surface: &Surface) -> Option<(usize, usize)> {
+    // Corners at the same place are one.
+    let same = triangles::weld(surface.positions());
+    let mut faces = vec![0; same.len()];
+    let corners = surface.triangles().iter().flatten();
+    corners.for_each(|&vertex| faces[same[vertex as usize] as usize] += 1);
+    faces.into_iter().enumerate().max_by_key(|&(_, faces)| faces)
+}
+
 fn checked(weights: Vec<f64>, vertices: usize) -> Result<Vec<f64>, HeadError> {
     if weights.len() != vertices {
         return Err(HeadError::WeightCount { weights: weights.len(), vertices });
@@ -311,6 +356,8 @@ fn grows(surface: &Surface, scalp: &[f64]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use test_shapes::{ball, mannequin};
 
@@ -325,6 +372,12 @@ mod tests {
         let nan = make(ScalpSource::Weights(weights));
         assert!(matches!(nan, Err(HeadError::WeightRange { vertex: 3, .. })));
         assert_eq!(make(ScalpSource::Weights(vec![0.0; count])), Err(HeadError::NoScalp));
+        let rim = |i: usize| (TAU * i as f64 / 6000.0).sin_cos();
+        let rim = (0..6000).map(|i| DVec3::new(0.1 * rim(i).0, 0.1 * rim(i).1, 0.0));
+        let corners = std::iter::once(DVec3::Z * 0.2).chain(rim).collect();
+        let faces = (0..6000).map(|i| [0, 1 + i, 1 + (i + 1) % 6000]).collect();
+        let cone = Head::from_surface(Surface::new(corners, faces).unwrap(), ScalpSource::Guess);
+        assert_eq!(cone, Err(HeadError::Fan { vertex: 0, faces: 6000 }));
         let far = Head::from_surface(ball(100.0, 8), ScalpSource::Guess);
         assert_eq!(far, Err(HeadError::Size { size: 200.0 }));
     }

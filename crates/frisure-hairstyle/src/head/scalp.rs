@@ -193,7 +193,7 @@ impl Edge {
     /// 1 on the outer ear, which the scalp behind it shares its directions with.
     fn on_ear(&self, p: DVec3) -> f64 {
         let l = &self.landmarks;
-        let out = (p.x.abs() - l.ear.x) / l.scale() + 2e-3;
+        let out = (l.local(p).x.abs() - l.local(l.ear).x) / l.scale() + 2e-3;
         // From 2 mm outside the skull on.
         smooth(out / 2e-3) * smooth((1.0 - l.about_ear(p)) / 0.1)
     }
@@ -203,19 +203,19 @@ impl Edge {
 fn anchors(l: &Landmarks, hairline: &Hairline) -> Vec<[f64; 2]> {
     let scale = l.width / 0.155;
     let ear = l.azimuth(l.ear);
-    let front = l.hairline.z;
-    let brow = l.brow.z;
-    let top = l.ear.z + 0.033 * scale;
-    let bottom = l.ear.z - 0.030 * scale;
+    // Heights above the centre.
+    let [front, brow, middle] = [l.hairline, l.brow, l.ear].map(|p| l.local(p).z);
+    let top = middle + 0.033 * scale;
+    let bottom = middle - 0.030 * scale;
     // A length along the skin is an angle about the centre.
     let nape = l.elevation(l.nape) + hairline.nape / l.nape.distance(l.cranium_centre);
     let sideburns = bottom + hairline.sideburns;
     // The skin's distance from the vertical axis, for a height above the centre.
     let at = |azimuth: f64, z: f64| {
-        let h = (z - l.cranium_centre.z) / l.cranium_radii.z;
+        let h = z / l.cranium_radii.z;
         let ellipse = (azimuth.sin() / l.cranium_radii.x).hypot(azimuth.cos() / l.cranium_radii.y);
         let radius = (1.0 - h * h).max(0.4).sqrt() / ellipse;
-        [azimuth, (z - l.cranium_centre.z).atan2(radius)]
+        [azimuth, z.atan2(radius)]
     };
     // Azimuth (rad) and height of each corner: over the forehead, down the temple, before and round the ear, to the nape.
     // Proportions are chosen by eye on the mannequin.

@@ -237,7 +237,7 @@ fn take(next: &mut BTreeMap<u32, Vec<u32>>, at: u32) -> Option<u32> {
 }
 
 /// For each vertex, the first vertex at the same place.
-fn weld(positions: &[DVec3]) -> Vec<u32> {
+pub(super) fn weld(positions: &[DVec3]) -> Vec<u32> {
     // Adding 0 turns −0 into 0: equal coordinates have equal bits.
     let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
     let keys = positions.iter().zip(0..);

@@ -60,11 +60,14 @@ pub(crate) fn run_scene(
     let prediction = Prediction { arguments, views, environment, progress };
     let written = prediction.execute(&Arc::new(scene), &files);
     drop(prediction);
-    let Written { report, note, lines } = written?;
+    let Written { report, lines } = written?;
+    let (warnings, notes): (Vec<&String>, Vec<&String>) =
+        report.head_notes.iter().partition(|line| line.starts_with("warning:"));
+    console::warn(&warnings.into_iter().fold(String::new(), |out, line| out + line + "\n"));
     if quiet {
         console::warn(&buried(&report, &spec));
     } else {
-        console::say(&summary(&report, &spec, note.as_deref(), &lines))?;
+        console::say(&summary(&report, &spec, &notes, &lines))?;
     }
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.
     let missed = requested && report.guides.accuracy_missed > 0;
@@ -125,8 +128,6 @@ struct Prediction<'a> {
 struct Written {
     /// Of the last hairstyle.
     report: HairstyleReport,
-    /// What was guessed of the head.
-    note: Option<String>,
     /// A line about each file.
     lines: Vec<String>,
 }
@@ -177,7 +178,7 @@ impl Prediction<'_> {
             interrupt::writing(write).map_err(|e| Error::failed(&e, ""))?;
             lines.push(console::shown(path));
         }
-        Ok(Written { report, note: stages[0].note.clone(), lines })
+        Ok(Written { report, lines })
     }
 
     /// Whether hairs are needed between the guides.

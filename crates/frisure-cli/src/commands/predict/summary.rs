@@ -10,18 +10,18 @@ use frisure_engine::report::{
     DEEP, HairstyleReport, SimulationReport, StepReport, StrandContactReport, WetLockReport,
 };
 
-/// The summary of a prediction of a description; `note` is what was guessed of the head, and `written` has a line about each file.
+/// The summary of a prediction of a description; `notes` say what was guessed of the head, and `written` has a line about each file.
 pub(super) fn summary(
     report: &HairstyleReport,
     spec: &HairstyleSpec,
-    note: Option<&str>,
+    notes: &[&String],
     written: &[String],
 ) -> String {
     let guides = &report.guides;
     let name = quoted(if report.scene.is_empty() { report.hair_type } else { &report.scene });
     let mut out = String::new();
     // Writing to a String cannot fail.
-    if let Some(note) = note {
+    for note in notes {
         let _ = writeln!(out, "{note}");
     }
     let _ = write!(out, "{name}: {} of {} guides at rest", guides.stable, guides.count);
