@@ -49,6 +49,36 @@ pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Error> 
     Ok(())
 }
 
+/// Checks that the disk of a file has room for so many bytes, as far as it can be asked.
+pub(crate) fn check_room(path: &Path, bytes: u64) -> Result<(), Error> {
+    let Some(free) = free_room(path).filter(|free| *free < bytes) else { return Ok(()) };
+    let (path, needed, free) = (path.display(), megabytes(bytes), megabytes(free));
+    let problem = format!("`{path}` may need {needed} MB, and there are {free} MB on its disk");
+    Err(Error::failed(
+        &io::Error::new(io::ErrorKind::StorageFull, problem),
+        "make room, or write to another disk",
+    ))
+}
+
+/// Millions of bytes, rounded up.
+fn megabytes(bytes: u64) -> u64 {
+    bytes.div_ceil(1_000_000)
+}
+
+/// Bytes that a user may still write on the disk of a file; none where that is not known.
+#[cfg(unix)]
+fn free_room(path: &Path) -> Option<u64> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let disk = nix::sys::statvfs::statvfs(folder.unwrap_or(Path::new("."))).ok()?;
+    Some((disk.blocks_available() as u64).saturating_mul(disk.fragment_size() as u64))
+}
+
+/// Bytes that a user may still write on the disk of a file; none where that is not known.
+#[cfg(not(unix))]
+fn free_room(_: &Path) -> Option<u64> {
+    None
+}
+
 /// A folder and its parents that do not exist, the deepest first.
 fn missing(folder: &Path) -> impl Iterator<Item = PathBuf> {
     let named = folder.ancestors().filter(|f| !f.as_os_str().is_empty());

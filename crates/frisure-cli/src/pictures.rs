@@ -18,6 +18,9 @@ use crate::outputs::{self, numbered, suffixed};
 use crate::progress::Bar;
 use crate::{console, interrupt};
 
+/// Most bytes of a pixel in a file: four numbers of an `.exr`, not compressed.
+const LARGEST_PIXEL: usize = 16;
+
 /// The pictures of one hairstyle.
 #[derive(Clone, Debug)]
 pub(crate) enum Views {
@@ -114,6 +117,10 @@ pub(crate) fn trace(
         };
         let stage = SubStage { progress, stage: &name, range: [0.0, 1.0] };
         let mut picture = frames.open(frame, path)?;
+        // Hours of work are not begun for a file that has no room.
+        let bytes =
+            picture.accumulator.checkpoint_size() + LARGEST_PIXEL * picture.accumulator.pixels();
+        outputs::check_room(path, bytes as u64)?;
         if let Some(old) = &picture.moved_to {
             let (path, old) = (checkpoint::path_for(path), old.display());
             let path = path.display();

@@ -1,5 +1,6 @@
 //! `frisure batch`: many heads of one scene as Parquet.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,6 +11,7 @@ use frisure::scene::batch::Views;
 use frisure::scene::edit::EditError;
 use frisure_batch::{Batch as Heads, Row, Run, Sample, Shard, Value};
 use frisure_engine::Error;
+use frisure_engine::report::status;
 
 use crate::args::Batch;
 use crate::diagnostics::ExitStatus;
@@ -95,7 +97,8 @@ fn header(views: Option<&Views>, shard: Shard, own: usize, all: usize, before: u
 struct Totals {
     heads: usize,
     failed: usize,
-    not_converged: usize,
+    /// How many heads have each status of their guides, but for those at rest.
+    statuses: BTreeMap<&'static str, usize>,
     /// The first head that failed, and why.
     first: Option<String>,
 }
@@ -106,7 +109,8 @@ impl Totals {
         for row in rows {
             match &row.outcome {
                 Ok(measured) => {
-                    self.not_converged += usize::from(measured.metrics.settling.not_converged > 0);
+                    let status = status(&measured.metrics.settling);
+                    *self.statuses.entry(status).or_default() += usize::from(status != "at rest");
                 }
                 Err(why) => {
                     self.failed += 1;
@@ -117,16 +121,27 @@ impl Totals {
     }
 
     fn summary(&self, own: usize) -> String {
-        let Self { heads, failed, not_converged, first } = self;
+        let Self { heads, failed, statuses, first } = self;
         let mut out = format!("{own} heads are there, {heads} of them new");
-        if *not_converged > 0 {
-            let _ = write!(out, "; {not_converged} have guides that did not converge");
+        for (status, heads) in statuses.iter().filter(|(_, heads)| **heads > 0) {
+            let _ = write!(out, "; {heads} have guides that {}", in_words(status));
         }
         if let Some(first) = first {
             let _ = write!(out, "; {failed} failed, the first as {first}");
         }
         out.push('\n');
         out
+    }
+}
+
+/// The status of guides as part of a sentence.
+fn in_words(status: &str) -> &'static str {
+    match status {
+        "not converged" => "did not converge",
+        "on a saddle" => "are on a saddle",
+        "undecided" => "are perhaps on a saddle",
+        "inside the head" => "are inside the head",
+        _ => "miss the accuracy",
     }
 }
 

@@ -1,6 +1,7 @@
 //! `frisure hair`: one hair, its energies and its stability certificate.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 use frisure::rod::{AccuracyStatus, Equilibrium, Resolution, Stability, equilibrium};
 use frisure_engine::report::EnergyReport;
@@ -11,6 +12,9 @@ use super::read_scene;
 use crate::args::Hair;
 use crate::console;
 use crate::diagnostics::ExitStatus;
+
+/// Mean diameters (m) beyond which a unit was probably mistaken. Chosen: rods of a hundred times the size of a hair are computed to compare.
+const DIAMETERS: RangeInclusive<f64> = 1e-6..=5e-3;
 
 /// The JSON report; SI units.
 #[derive(Debug, Serialize)]
@@ -59,6 +63,12 @@ pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
         false => table(&report, rest.certificate.stability),
     };
     console::print(&text)?;
+    let diameter = 2.0 * hair.rod.spec().section.mean_radius();
+    if !DIAMETERS.contains(&diameter) {
+        console::note(&format!(
+            "a mean diameter of {diameter:.3e} m is not that of a hair; hair of the scalp has 40 to 120 um"
+        ));
+    }
     let given = matches!(hair.options.resolution, Resolution::Elements(_));
     if given && rest.certificate.stability == Stability::Undecided {
         console::note(

@@ -45,6 +45,17 @@ fn a_beam_bends_as_beams_do() {
 }
 
 #[test]
+fn a_diameter_of_no_hair_is_told() {
+    let text = BEAM.replace("1 mm", "70 mm");
+    let ran = Room::new().feed(&["hair", "-"], text.as_bytes());
+    assert!(
+        ran.code == Some(0) && ran.err.contains("7.000e-2 m is not that of a hair"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
 fn without_weight_a_hair_is_its_natural_helix() {
     let text = "gravity = 0\nequilibrium.elements = 4\n[hair]\nlength = \"10 cm\"\n\
                 [hair.curl]\nradius = \"1 cm\"\npitch = 0\n";

@@ -35,10 +35,22 @@ pub enum AccumulatorError {
 }
 
 impl Accumulator {
+    /// The size of a checkpoint (bytes).
+    #[must_use]
+    pub fn checkpoint_size(&self) -> usize {
+        HEAD + self.pixels() * (PIXEL + 1) + 16
+    }
+
+    /// The number of pixels.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.width * self.height
+    }
+
     /// The bytes from which [`Self::from_bytes`] makes it again.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(HEAD + self.width * self.height * (PIXEL + 1) + 16);
+        let mut bytes = Vec::with_capacity(self.checkpoint_size());
         bytes.extend(MAGIC);
         bytes.extend(self.digest.to_le_bytes());
         bytes.extend((self.width as u32).to_le_bytes());
