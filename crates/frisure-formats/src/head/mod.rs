@@ -2,6 +2,7 @@
 //!
 //! One module per format, recognised by the first bytes of a file; each gives a mesh as it stands there.
 
+mod eyes;
 mod format;
 mod gltf;
 mod mesh;
@@ -17,7 +18,7 @@ use std::path::{Component, Path};
 use frisure_files::frame::{Frame, FrameChoice, rotation};
 pub use frisure_files::head::{HeadFile, ScalpSource};
 use frisure_files::{Files, to_text};
-use frisure_strands::Surface;
+use frisure_strands::{Features, Surface};
 use glam::DVec3;
 
 use format::{MeshFormat, Problem};
@@ -52,7 +53,7 @@ const MOST_LAYERS: f64 = 100.0;
 /// A head's mesh as it stands in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadMesh {
-    /// The mesh, in metres, z up.
+    /// The mesh, in metres, z up; with its eyes, if groups of faces named so lie on spheres.
     pub surface: Surface,
     /// Density of hair at each vertex, 0 to 1; `None` where the scalp is to be guessed.
     pub scalp: Option<Vec<f64>>,
@@ -100,6 +101,14 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
     let surface = match mesh.texture() {
         Some(texture) => surface.clone().with_texture(texture).unwrap_or(surface),
         None => surface,
+    };
+    let eyes = eyes::find(&mesh, surface.positions());
+    let surface = match eyes.is_empty() {
+        true => surface,
+        false => {
+            let features = Features { eyes, ..Features::default() };
+            surface.with_features(features).expect("it has no tints")
+        }
     };
     let scalp = match &head.scalp {
         ScalpSource::Guess => None,
