@@ -305,8 +305,8 @@ fn elements_too_long_for_the_curl_are_refused_with_the_number_that_suffices() {
         Scene::parse("coil", text, Path::new(""))?.hairstyle_spec()
     };
     let error = coil("20 cm").unwrap_err().to_string();
-    assert!(error.contains("at most 512") && error.contains("shorter than 4.0"), "{error}");
-    assert!(coil("4 cm").is_ok());
+    assert!(error.contains("at most 1000") && error.contains("shorter than 7.8"), "{error}");
+    assert!(coil("7.8 cm").is_ok());
 }
 
 #[test]
