@@ -161,6 +161,16 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
+    fn a_disk_without_room_is_told_with_both_numbers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        assert!(check_room(&path, 1).is_ok());
+        let error = check_room(&path, u64::MAX).unwrap_err().to_string();
+        assert!(error.contains("may need 18446744073710 MB, and there are"), "{error}");
+    }
+
+    #[cfg(unix)]
+    #[test]
     fn two_outputs_through_one_link_are_an_error() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);

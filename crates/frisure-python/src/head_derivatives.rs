@@ -6,7 +6,7 @@ use frisure::hairstyle::contact::SwitchDistance;
 use frisure::hairstyle::{HeadChange, HeadDerivativeError, HeadGradient, HeadSensitivity};
 use frisure::progress::Cancelled;
 use frisure::rod::Rod;
-use frisure::rod::derivatives::{ParameterChange, Regularity, ShapeChange, stiffness_of_section};
+use frisure::rod::derivatives::{FibreChange, ParameterChange, Regularity, ShapeChange};
 use frisure_engine::Error;
 use frisure_engine::memory::{self, Work};
 use glam::DVec3;
@@ -175,23 +175,21 @@ impl Kept {
         let each = vectors(changes.element_strain.as_array(), elements)?;
         let mut each = each.as_slice();
         let guide = |(i, rod): (usize, &Rod)| {
-            let (of, section) = (rod.spec().material, rod.spec().section);
             let at = |change: &PyReadonlyArray1<'_, f64>| change.as_array()[i];
-            let wider = at(&changes.diameter) / (2.0 * section.mean_radius());
-            let flatter = at(&changes.axis_ratio) / (section.a() / section.b());
-            let bending = at(&changes.youngs_modulus) / of.youngs_modulus();
-            let twisting = at(&changes.shear_modulus) / of.shear_modulus();
-            // ρ S g, of which S is as the square of the diameter.
-            let heavier = at(&changes.density) + 2.0 * wider * of.density();
-            let load = rod.spec().load.gravity * heavier + gravity[i] * of.density();
+            let fibre = FibreChange {
+                youngs_modulus: at(&changes.youngs_modulus),
+                shear_modulus: at(&changes.shear_modulus),
+                density: at(&changes.density),
+                diameter: at(&changes.diameter),
+                axis_ratio: at(&changes.axis_ratio),
+            };
+            let (stiffer, heavier) = fibre.relative(rod);
             let (own, others) = each.split_at(self.nodes[i] - 1);
             each = others;
             ParameterChange {
                 natural_strain: own.iter().map(|change| *change + strain[i]).collect(),
-                stiffness: rod.stiffness()
-                    * (DVec3::new(bending, bending, twisting)
-                        + stiffness_of_section(rod, wider, flatter)),
-                load: load * section.area(),
+                stiffness: rod.stiffness() * stiffer,
+                load: (rod.spec().load.gravity * heavier + gravity[i]) * rod.mass(),
                 ..ParameterChange::default()
             }
         };

@@ -141,9 +141,16 @@ def test_straight_hair_and_saddles_say_so() -> None:
     fibre = 3e9 * np.pi * (40e-6) ** 4 / 4 / (1300 * 9.81 * np.pi * (40e-6) ** 2)
     length = (0.999 * 7.8373 * fibre) ** (1 / 3)
     upright = {"diameter": 80e-6, "youngs_modulus": 3e9, "shear_modulus": 1e9, "tangent": [0, 0, 1], "elements": 24}
-    gradient = rods.settle([0.5 * length, length], **upright, derivatives=True).vjp(np.ones((2, 25, 3)))
-    assert gradient.exists.all()
-    assert gradient.regular.tolist() == [True, False]
+    rest = rods.settle([0.5 * length, length], **upright, derivatives=True)
+    for products in (rest.vjp(np.ones((2, 25, 3))), rest.jvp(density=1.0)):
+        assert products.exists.all()
+        assert products.regular.tolist() == [True, False]
+
+
+def test_what_rounding_decides_is_not_called_stable() -> None:
+    # 1e4 and 1e12 times as heavy as stiff.
+    rest = rods.settle(1.0, youngs_modulus=[4e9, 40.0e3], shear_modulus=[1e9, 10.0e3], gravity=[9.81, 9.81e3], elements=30)
+    assert rest.stable.tolist() == [True, False]
 
 
 def test_what_cannot_be_differentiated_is_told() -> None:

@@ -2,9 +2,7 @@
 
 use frisure::progress::{Cancelled, Progress, StageCounter};
 use frisure::rod::batch::{Batch, BatchGradient, BatchLoss, BatchSolution, Direction, NodeMotion};
-use frisure::rod::derivatives::{
-    LEAST_EIGENVALUE, ParameterChange, Sensitivity, stiffness_of_section,
-};
+use frisure::rod::derivatives::{FibreChange, LEAST_EIGENVALUE, ParameterChange, Sensitivity};
 use frisure::rod::minimise::Problem;
 use frisure::rod::{Chain, ElementKind, Rod};
 use frisure_engine::Error;
@@ -139,22 +137,20 @@ impl OwnedChanges {
     /// The change of a rod as a direction of the solver in lanes, in parts of what the rod has.
     fn direction(&self, rod: &Rod, clamps: &Clamps, index: usize) -> Direction {
         let turned = clamps.of(index).rotation(self.tangent.one(index), self.d1.one(index));
-        let spec = rod.spec();
-        let (section, material) = (&spec.section, &spec.material);
-        let axis_ratio = section.a() / section.b();
-        let wider = self.diameter.at(index) / (2.0 * section.mean_radius());
-        let flatter = self.axis_ratio.at(index) / axis_ratio;
-        let stiffer = self.youngs_modulus.at(index) / material.youngs_modulus();
-        let shear = self.shear_modulus.at(index) / material.shear_modulus();
-        let heavier = self.density.at(index) / material.density();
-        let gravity = spec.load.gravity.length();
+        let fibre = FibreChange {
+            youngs_modulus: self.youngs_modulus.at(index),
+            shear_modulus: self.shear_modulus.at(index),
+            density: self.density.at(index),
+            diameter: self.diameter.at(index),
+            axis_ratio: self.axis_ratio.at(index),
+        };
+        let (stiffness, heavier) = fibre.relative(rod);
+        let gravity = rod.spec().load.gravity.length();
         let stronger = if gravity > 0.0 { self.gravity.at(index) / gravity } else { 0.0 };
         Direction {
             natural_strain: self.strain.at(index, self.strains).to_vec(),
-            stiffness: DVec3::new(stiffer, stiffer, shear)
-                + stiffness_of_section(rod, wider, flatter),
-            // The area of the section is as the square of its diameter.
-            weight: heavier + 2.0 * wider + stronger,
+            stiffness,
+            weight: heavier + stronger,
             length: self.length.at(index) / rod.length(),
             root_rotation: self.root_rotation.one(index) + turned,
         }

@@ -11,7 +11,7 @@ mod sensitivity;
 
 use thiserror::Error;
 
-pub use parameters::{ParameterChange, ParameterGradient, ShapeChange, stiffness_of_section};
+pub use parameters::{FibreChange, ParameterChange, ParameterGradient, ShapeChange};
 pub use sensitivity::Sensitivity;
 
 /// Gradient, relative to the moment scale, above which a shape is not at rest. Chosen: far above rounding.

@@ -57,18 +57,41 @@ pub struct ParameterGradient {
     pub root_rotation: DVec3,
 }
 
-/// Relative change of the stiffnesses E I1, E I2, μ J of a rod where the mean diameter 2√(ab) and the axis ratio a/b of its section
-/// change by these fractions of themselves.
-#[must_use]
-pub fn stiffness_of_section(rod: &Rod, diameter: f64, axis_ratio: f64) -> DVec3 {
-    // With the diameter d and the axis ratio q: I1 is as d⁴/q, I2 as d⁴q, J as d⁴/(q + 1/q) or, polar, d⁴(q + 1/q).
-    let section = rod.spec().section;
-    let square = (section.a() / section.b()).powi(2);
-    let rounder = match rod.spec().torsion {
-        TorsionConstant::SaintVenant => (1.0 - square) / (square + 1.0),
-        TorsionConstant::Polar => (square - 1.0) / (square + 1.0),
-    };
-    DVec3::splat(4.0 * diameter) + DVec3::new(-1.0, 1.0, rounder) * axis_ratio
+/// A change of what a fibre is made of; zero by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FibreChange {
+    /// Of Young's modulus (Pa).
+    pub youngs_modulus: f64,
+    /// Of the shear modulus (Pa).
+    pub shear_modulus: f64,
+    /// Of the density (kg/m³).
+    pub density: f64,
+    /// Of the mean diameter 2√(ab) of the section (m).
+    pub diameter: f64,
+    /// Of the axis ratio a/b of the section.
+    pub axis_ratio: f64,
+}
+
+impl FibreChange {
+    /// Relative changes of a rod's stiffnesses E I1, E I2, μ J, and of its mass.
+    #[must_use]
+    pub fn relative(&self, rod: &Rod) -> (DVec3, f64) {
+        let (material, section) = (rod.spec().material, rod.spec().section);
+        let ratio = section.a() / section.b();
+        let wider = self.diameter / (2.0 * section.mean_radius());
+        let flatter = self.axis_ratio / ratio;
+        let stiffer = self.youngs_modulus / material.youngs_modulus();
+        let shear = self.shear_modulus / material.shear_modulus();
+        // With the diameter d and the axis ratio q: S is as d², I1 as d⁴/q, I2 as d⁴q, J as d⁴/(q + 1/q) or, polar, d⁴(q + 1/q).
+        let square = ratio * ratio;
+        let rounder = match rod.spec().torsion {
+            TorsionConstant::SaintVenant => (1.0 - square) / (square + 1.0),
+            TorsionConstant::Polar => (square - 1.0) / (square + 1.0),
+        };
+        let of_section = DVec3::splat(4.0 * wider) + DVec3::new(-1.0, 1.0, rounder) * flatter;
+        let stiffness = DVec3::new(stiffer, stiffer, shear) + of_section;
+        (stiffness, self.density / material.density() + 2.0 * wider)
+    }
 }
 
 impl ParameterGradient {
