@@ -14,12 +14,12 @@ use crate::contact::Bed;
 use crate::equilibrium::{
     Effort, GuideStart, SettleOptions, combed_hold, held_up, holding, settle,
 };
-use crate::guides::{Altitudes, Guide, Planned, covered};
+use crate::guides::{Guide, Planned, covered};
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::RootPlacement;
 use crate::hairstyle::Styling;
 use crate::head::Head;
-use crate::implantation::{Layout, out_of_face};
+use crate::implantation::{Layout, Ways, out_of_face};
 use crate::implantation::{Root, Scalp};
 use crate::math::Grid;
 use crate::parallel;
@@ -90,7 +90,7 @@ pub fn adopt(
     let placement = placement(&mut spec, head, &lines, hairs, &held);
     spec.wisps.check_size(placement.area())?;
     let layout = Layout::new(&spec, head)?;
-    let guides = plan(&spec, head, &placement, &held);
+    let guides = plan(&spec, head, &layout, &placement, &held);
     let before: Vec<_> = held.iter().map(|held| held.fit.equilibrium.clone()).collect();
     let start = GuideStart::At(&before);
     let options = SettleOptions { start, effort: Effort::FULL, locks: Vec::new() };
@@ -322,13 +322,18 @@ fn near(guides: &[Root], roots: &[Root]) -> Vec<Root> {
 const LONELY: f64 = 0.01;
 
 /// The guides, with the fibres that were found.
-fn plan(spec: &HairstyleSpec, head: &Head, placement: &RootPlacement, held: &[Held]) -> Vec<Guide> {
-    let altitudes = Altitudes::new(spec, placement.roots());
+fn plan(
+    spec: &HairstyleSpec,
+    head: &Head,
+    layout: &Layout,
+    placement: &RootPlacement,
+    held: &[Held],
+) -> Vec<Guide> {
+    let ways = Ways::new(spec, head, layout);
     let guide = |(root, Held { fit, bed, hold }): (&Root, &Held)| {
-        let altitude = altitudes.of(root);
         let curl = fit.rod.natural().mean(0.0, fit.rod.length());
         let planned = Planned { rod: fit.rod.clone(), curl, share: 1.0 };
-        let guide = covered(spec, head, placement.area(), *root, altitude, planned);
+        let guide = covered(spec, head, placement.area(), &ways, *root, planned);
         Guide { bed: Some(Arc::new(bed.clone())), hold: *hold, ..guide }
     };
     placement.roots().iter().zip(held).map(guide).collect()

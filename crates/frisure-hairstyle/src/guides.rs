@@ -10,7 +10,7 @@ use crate::contact::{FrictionCoefficients, Pull};
 use crate::fibre::{Curl, Handedness};
 use crate::head::{Head, Region};
 use crate::implantation::Root;
-use crate::implantation::{self, Layout};
+use crate::implantation::{self, Layout, Ways};
 use crate::parallel;
 use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
@@ -60,37 +60,13 @@ pub(crate) fn plan(
     roots: &[Root],
     area: f64,
 ) -> Result<Vec<Guide>, InvalidQuantity> {
-    let altitudes = Altitudes::new(spec, roots);
+    let ways = Ways::new(spec, head, layout);
     parallel::try_map(roots.len(), |index| {
         let root = roots[index];
-        let altitude = altitudes.of(&root);
         let planned = fibre(spec, head, layout, &root, index)?;
         let hold = spec.implantation.hold * layout.held(&root);
-        Ok(Guide { hold, ..covered(spec, head, area, root, altitude, planned) })
+        Ok(Guide { hold, ..covered(spec, head, area, &ways, root, planned) })
     })
-}
-
-/// How high roots are against gravity, from the lowest to the highest.
-pub(crate) struct Altitudes {
-    /// The direction of up (unit, head).
-    up: DVec3,
-    low: f64,
-    high: f64,
-}
-
-impl Altitudes {
-    pub(crate) fn new(spec: &HairstyleSpec, roots: &[Root]) -> Self {
-        let up = -spec.pose.down();
-        let heights = roots.iter().map(|root| root.position.dot(up));
-        let (low, high) =
-            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
-        Self { up, low, high }
-    }
-
-    /// 0 for the lowest root, 1 for the highest.
-    pub(crate) fn of(&self, root: &Root) -> f64 {
-        (root.position.dot(self.up) - self.low) / (self.high - self.low).max(1e-9)
-    }
 }
 
 /// The guide of a fibre rooted somewhere, with the wisp about it and the hair beneath.
@@ -98,13 +74,14 @@ pub(crate) fn covered(
     spec: &HairstyleSpec,
     head: &Head,
     area: f64,
+    ways: &Ways<'_>,
     root: Root,
-    altitude: f64,
     Planned { rod, curl, share }: Planned,
 ) -> Guide {
     let region = head.landmarks().region(root.position);
     let thickness = thickness(spec, area, &rod);
-    let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
+    let way = ways.over_hair(&root, rod.length());
+    let layer = Layer::new(way, cover(spec, &thickness, &rod));
     let (bed, pull, firmness, hold) = (None, None, 1.0, 0.0);
     let (skin, hair) = (spec.contact.skin_friction, spec.contact.friction);
     let friction = FrictionCoefficients {

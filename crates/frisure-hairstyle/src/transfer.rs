@@ -8,10 +8,10 @@ use frisure_strands::Strands;
 use glam::{DMat3, Vec3};
 
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, settle};
-use crate::guides::{Altitudes, Guide, Planned, covered};
+use crate::guides::{Guide, Planned, covered};
 use crate::hairstyle::{Hairstyle, RootPlacement, Styling};
 use crate::head::{Correspondence, Corresponding, Head};
-use crate::implantation::{Layout, Root, Scalp};
+use crate::implantation::{Layout, Root, Scalp, Ways};
 use crate::parallel;
 use crate::predict::PredictError;
 use crate::strands::{StrandOptions, strands};
@@ -57,11 +57,11 @@ pub fn transfer(
     };
     spec.wisps.check_size(placement.area())?;
     let layout = Layout::new(&spec, to)?;
-    let altitudes = Altitudes::new(&spec, placement.roots());
+    let ways = Ways::new(&spec, to, &layout);
     let guide = |(guide, (root, turn)): (&Guide, &(Root, DMat3))| {
         let rod = clamped(&guide.rod, *root, *turn)?;
         let planned = Planned { rod, curl: guide.curl, share: guide.share };
-        let covered = covered(&spec, to, placement.area(), *root, altitudes.of(root), planned);
+        let covered = covered(&spec, to, placement.area(), &ways, *root, planned);
         Ok(Guide { bed: guide.bed.clone(), hold: guide.hold, ..covered })
     };
     let guides = hairstyle.guides.iter().zip(&roots).map(guide);

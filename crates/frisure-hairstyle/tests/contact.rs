@@ -97,7 +97,7 @@ fn a_lower_tolerance_finds_a_lower_energy() {
 
 #[test]
 fn a_head_on_its_side_still_has_its_volume() {
-    // Layers follow the altitude of the root, which means nothing here; wisps know nothing of it.
+    // The flow of hair follows the head, not gravity; wisps know nothing of it.
     let turn = DQuat::from_rotation_y(0.6);
     let skin = head().surface();
     let turned = skin.positions().iter().map(|p| turn * *p).collect();

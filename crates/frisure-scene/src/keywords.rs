@@ -349,7 +349,7 @@ keywords! {
 
     Keyword<HairContact> {
         "none" => Self(HairContact::None), "wisps pass through each other";
-        "layers" => Self(HairContact::Layers), "a bed of hair by the altitude of the root, as in the paper";
+        "layers" => Self(HairContact::Layers), "a bed of the hair that is rooted on the way, after the paper's envelopes";
         "wisps" => Self(HairContact::Wisps), "wisps repel each other where they overlap";
         "density" => Self(HairContact::Density), "a bed of hair as with layers, and wisps press on each other where together they take more room than there is";
     }

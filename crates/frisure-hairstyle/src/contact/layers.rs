@@ -2,16 +2,17 @@
 
 /// The bed of hair that a wisp lies on: the distance (m) that it keeps from the skin.
 ///
-/// After Lee & Ko 2001 (\[paper\] §3.1) a wisp lies on an envelope of the head whose offset grows
-/// with the altitude of its root. How thick is the bed? Beneath a hair, at the arc length s from its
-/// root, run the hairs rooted on the way there: ν per area, each of which takes the cross-section A
-/// of its wisp. Hence the bed is `ν A s` thick, until the hair has passed the lowest root, which is
-/// the distance m away along the skin: `ν A min(s, m)`.
+/// After Lee & Ko 2001 (\[paper\] §3.1) a wisp lies on an envelope of the head whose offset grows with what is
+/// beneath. How thick is the bed? Beneath a hair, at the arc length s from its root, run the hairs rooted on the way
+/// there: ν per area, each of which takes the cross-section A of its wisp. Hence the bed is `ν A s` thick, until the
+/// hair has passed the last root on its way, after the distance m along the skin: `ν A min(s, m)`. Lee & Ko take m from the
+/// altitude of the root, which puts a bed beneath hair that falls over a bare forehead, and none beneath hair that is
+/// combed up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
     /// Growth of the bed per arc length, ν A, at most 0.6.
     pub slope: f64,
-    /// Distance m along the skin down to the lowest root (m).
+    /// Distance m along the skin to the last root on the way of the hair (m).
     pub most: f64,
 }
 
@@ -25,14 +26,11 @@ impl Layer {
     /// No hair beneath.
     pub const NONE: Self = Self { slope: 0.0, most: 0.0 };
 
-    /// The bed of a root at `altitude` (0 the lowest of the scalp, 1 the highest), on a scalp of the
-    /// area `scalp` (m²), taken for half a sphere, whose hairs take `cover` of cross-section per
-    /// area of skin (ν A).
+    /// The bed of a hair that lies over `way` (m) of skin on which hairs grow that take `cover` of cross-section per area of
+    /// skin (ν A).
     #[must_use]
-    pub fn new(altitude: f64, scalp: f64, cover: f64) -> Self {
-        // Half a sphere has the area 2πR². The altitude is the sine of the angle up from its rim, R times that angle the way.
-        let radius = (scalp / std::f64::consts::TAU).sqrt();
-        Self { slope: cover.min(STEEPEST), most: radius * altitude.clamp(0.0, 1.0).asin() }
+    pub fn new(way: f64, cover: f64) -> Self {
+        Self { slope: cover.min(STEEPEST), most: way }
     }
 
     /// The same with another growth of the bed per arc length, ν A.
@@ -59,13 +57,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_bed_grows_with_the_altitude_of_the_root_and_along_the_hair() {
-        let full = |altitude| Layer::new(altitude, 0.06, 0.05).at(1.0);
-        assert_eq!(full(0.0), 0.0);
-        assert!(full(0.3) < full(0.6) && full(0.6) < full(1.0));
-        // From the crown down to the hairline: a quarter of the great circle.
-        assert!((full(1.0) - 0.05 * 0.1535).abs() < 1e-4);
-        let crown = Layer::new(1.0, 0.06, 0.05);
-        assert!(crown.at(0.01) < crown.at(0.02));
+    fn the_bed_grows_along_the_hair_as_far_as_hair_grows_there() {
+        let bed = Layer::new(1.0, 0.5);
+        assert_eq!([0.0, 0.5, 1.0, 9.0].map(|s| bed.at(s)), [0.0, 0.25, 0.5, 0.5]);
+        assert_eq!(Layer::new(0.0, 0.05).at(1.0), 0.0);
+        assert_eq!(Layer::new(1.0, 3.0).at(1.0), STEEPEST);
     }
 }

@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::parting::Partings;
+use super::parting::{Away, Partings};
 use super::roots::Root;
 use super::tape::Tape;
 use crate::head::{Head, Landmarks};
@@ -82,11 +82,14 @@ pub(crate) fn along_skin(
         Flow::SweptBack => swept(normal),
     };
     let base = gathered_at_nape(marks, base, root);
-    let Some((away, distance)) = partings.away(root.position, normal) else { return base };
+    let Some(Away { along: away, distance, strength }) = partings.away(root.position, normal)
+    else {
+        return base;
+    };
     let parted = matches!(flow, Flow::Parted { .. });
     let reach = marks.width * if parted { 0.5 } else { 0.22 };
     // It fades into the rest over a few centimetres, more where the whole head is parted.
-    let pull = (-(distance / reach).powi(2)).exp();
+    let pull = strength * (-(distance / reach).powi(2)).exp();
     // Beside the line hair leaves sideways, or it would fall back over it; farther off, and above the
     // forehead, it is combed back out of the face. Shares and distances (m) are chosen by how much hair lies over the face.
     let near = 0.5 + 0.4 * (1.0 - smooth_step(-0.85, -0.6, marks.normalized(root.position).y));

@@ -7,6 +7,7 @@ pub(crate) mod regions;
 pub(crate) mod rim;
 mod roots;
 mod tape;
+mod ways;
 
 use glam::DVec3;
 
@@ -19,9 +20,10 @@ pub use parting::PartingError;
 pub(crate) use roots::Scalp;
 pub use roots::{Root, scalp_area};
 pub(crate) use tape::Tape;
+pub(crate) use ways::Ways;
 
 use flow::Whorl;
-use parting::Partings;
+use parting::{Away, Partings};
 
 /// How hair leaves the scalp of one head: whorls and partings in their places on the skin.
 #[derive(Clone, Debug)]
@@ -101,7 +103,7 @@ impl Layout {
         let grown = lift::angle(&self.marks, self.implantation.lift, root.position, combed);
         let Lift::Regional { .. } = self.implantation.lift else { return grown };
         let beside = self.partings.away(root.position, root.normal);
-        let flat = beside.map_or(grown, |(_, distance)| lift::laid_flat(grown, distance));
+        let flat = beside.map_or(grown, |Away { distance, .. }| lift::laid_flat(grown, distance));
         let raised = lift::turned_back(&self.marks, flat, self.lead, root.position);
         flat + (raised - flat) * combed
     }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::tape::Tape;
 use crate::head::{Head, Landmarks};
-use crate::math::segments_cross;
+use crate::math::{segments_cross, smooth_step};
 use crate::spec::Parting;
 
 /// Length (m) of the pieces of a parting. Chosen by trial; not measured further.
@@ -19,6 +19,10 @@ const ZIGZAG: (f64, f64) = (0.011, 0.026);
 
 /// Where a straight parting ends, as a share of the way to the whorl. Chosen by eye; not measured.
 const ENDING: f64 = 0.8;
+
+/// Length (m) over which a parting fades before an end amid hair: a comb parts there less and less, and what it combs back lies
+/// over the end. Chosen by eye; not measured.
+const FADING: f64 = 0.03;
 
 /// Farthest (m) from growing hair that a point of a parting may be. Chosen by trial; not measured further.
 const OFF: f64 = 0.015;
@@ -58,10 +62,23 @@ pub(crate) struct Partings(Vec<Line>);
 #[derive(Clone, Debug)]
 struct Line {
     points: Vec<DVec3>,
+    /// How strongly each piece parts, 0 to 1: less towards an end amid hair.
+    strengths: Vec<f64>,
     /// The same points on the map of the scalp.
     map: Vec<[f64; 2]>,
     /// Smallest and largest corner of the map's points.
     bounds: [[f64; 2]; 2],
+}
+
+/// What the partings of a head say about the hair at one place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Away {
+    /// Along the skin away from them, no longer than 1 and shorter where they contradict each other.
+    pub(crate) along: DVec3,
+    /// To the nearest (m).
+    pub(crate) distance: f64,
+    /// How strongly they part there, 0 to 1.
+    pub(crate) strength: f64,
 }
 
 impl Partings {
@@ -77,12 +94,13 @@ impl Partings {
             }
             let smooth = !matches!(parting, Parting::Zigzag { .. });
             let mut line = dense(&corners, smooth);
-            for _ in 0..2 {
-                extend(&mut line, &tape, head);
+            let mut amid = [false; 2];
+            for end in &mut amid {
                 line.reverse();
+                *end = !extend(&mut line, &tape, head);
             }
             let points = line.iter().map(|&c| tape.at(c)).collect();
-            Ok(Line::new(points, head.landmarks()))
+            Ok(Line::new(points, amid, head.landmarks()))
         });
         lines.collect::<Result<_, _>>().map(Self)
     }
@@ -100,12 +118,12 @@ impl Partings {
         self.0.iter().any(|line| line.crosses(a, b))
     }
 
-    /// The direction along the skin away from the partings, no longer than 1 and shorter where they
-    /// contradict each other, and the distance (m) to the nearest; none without partings.
-    pub(crate) fn away(&self, p: DVec3, normal: DVec3) -> Option<(DVec3, f64)> {
+    /// The direction along the skin away from the partings; none without partings.
+    pub(crate) fn away(&self, p: DVec3, normal: DVec3) -> Option<Away> {
         let (mut sum, mut most, mut nearest) = (DVec3::ZERO, 0.0, f64::INFINITY);
+        let mut strength = 0.0;
         for line in &self.0 {
-            for pair in line.points.windows(2) {
+            for (pair, part) in line.points.windows(2).zip(&line.strengths) {
                 let d = p - closest(p, pair[0], pair[1]);
                 let distance = d.length().max(1e-6);
                 // Σ d |d|⁻⁴ over pieces: d/|d| · length/|d|³. A line of charges whose force falls fast enough for each side
@@ -113,6 +131,7 @@ impl Partings {
                 let weight = pair[0].distance(pair[1]) / distance.powi(3);
                 sum += d / distance * weight;
                 most += weight;
+                strength += weight * part;
                 nearest = nearest.min(distance);
             }
         }
@@ -120,23 +139,27 @@ impl Partings {
         nearest.is_finite().then(|| {
             // Hair at the ends of a row of pieces leaves obliquely: what counts is the side.
             let agreement = (2.0 * along.length() / most).min(1.0);
-            (along.normalize_or_zero() * agreement, nearest)
+            Away {
+                along: along.normalize_or_zero() * agreement,
+                distance: nearest,
+                strength: strength / most,
+            }
         })
     }
 
     /// A point (m) of the skin, moved towards a parting near by.
     pub(crate) fn gathered(&self, p: DVec3) -> DVec3 {
-        let pieces = self.0.iter().flat_map(|line| line.points.windows(2));
+        let pieces = self.0.iter().flat_map(|line| line.points.windows(2).zip(&line.strengths));
         let nearest = pieces
-            .map(|w| closest(p, w[0], w[1]))
-            .min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)));
-        let Some(on_line) = nearest else { return p };
+            .map(|(w, strength)| (closest(p, w[0], w[1]), strength))
+            .min_by(|a, b| a.0.distance_squared(p).total_cmp(&b.0.distance_squared(p)));
+        let Some((on_line, strength)) = nearest else { return p };
         let distance = on_line.distance(p);
         if distance >= GATHERED {
             return p;
         }
-        // d (d/12 mm)^2.5: continuous at the border of the strip, and never across the line.
-        let nearer = distance * (distance / GATHERED).powf(2.5);
+        // d (d/12 mm)^(2.5 S), S the strength of the parting there: continuous at the border of the strip, and never across the line.
+        let nearer = distance * (distance / GATHERED).powf(2.5 * strength);
         on_line + (p - on_line).normalize_or_zero() * nearer.max(distance.min(SIDE))
     }
 
@@ -148,13 +171,15 @@ impl Partings {
 }
 
 impl Line {
-    fn new(points: Vec<DVec3>, marks: &Landmarks) -> Self {
+    /// Of points on the skin (m); `amid` says whether each end lies amid hair.
+    fn new(points: Vec<DVec3>, amid: [bool; 2], marks: &Landmarks) -> Self {
+        let strengths = strengths(&points, amid);
         let map: Vec<_> = points.iter().map(|&p| map(marks, p)).collect();
         let pick = |f: fn(f64, f64) -> f64, start: f64| {
             map.iter().fold([start; 2], |[x, y], q| [f(x, q[0]), f(y, q[1])])
         };
         let bounds = [pick(f64::min, f64::INFINITY), pick(f64::max, f64::NEG_INFINITY)];
-        Self { points, map, bounds }
+        Self { points, strengths, map, bounds }
     }
 
     fn crosses(&self, a: [f64; 2], b: [f64; 2]) -> bool {
@@ -162,6 +187,22 @@ impl Line {
         let apart = |i: usize| a[i].max(b[i]) < low[i] || a[i].min(b[i]) > high[i];
         !apart(0) && !apart(1) && self.map.windows(2).any(|w| segments_cross(a, b, w[0], w[1]))
     }
+}
+
+/// How strongly each piece between points (m) parts: it fades over the last [`FADING`], or the last quarter, before an end amid hair.
+fn strengths(points: &[DVec3], amid: [bool; 2]) -> Vec<f64> {
+    let steps: Vec<f64> = points.windows(2).map(|w| w[0].distance(w[1])).collect();
+    let whole: f64 = steps.iter().sum();
+    // Most of a short parting parts in full. Chosen by eye.
+    let fading = FADING.min(0.25 * whole);
+    let mut gone = 0.0;
+    let part = |step: &f64| {
+        let middle = gone + 0.5 * step;
+        gone += step;
+        let ends = [middle, whole - middle].into_iter().zip(amid);
+        ends.map(|(far, amid)| if amid { smooth_step(0.0, fading, far) } else { 1.0 }).product()
+    };
+    steps.iter().map(part).collect()
 }
 
 /// The scalp on a plane: angles from the vertical in every direction, equal along the meridians.
@@ -219,9 +260,9 @@ fn check(
 /// falls forward between its end and the edge. docs/theory.md, "Roots and implantation".
 const ONWARD: f64 = 0.02;
 
-/// Extends a line past its last point until no hair grows, if that is near.
-fn extend(line: &mut Vec<[f64; 2]>, tape: &Tape<'_>, head: &Head) {
-    let [.., before, last] = line.as_slice() else { return };
+/// Extends a line past its last point until no hair grows, if that is near, and says whether it is.
+fn extend(line: &mut Vec<[f64; 2]>, tape: &Tape<'_>, head: &Head) -> bool {
+    let [.., before, last] = line.as_slice() else { return false };
     let way = [last[0] - before[0], last[1] - before[1]];
     let scale = PIECE / way[0].hypot(way[1]).max(1e-9);
     let onward = |i: usize| [0, 1].map(|x| last[x] + way[x] * scale * i as f64);
@@ -230,6 +271,7 @@ fn extend(line: &mut Vec<[f64; 2]>, tape: &Tape<'_>, head: &Head) {
     // Two more: the edge is not sharp.
     let more: Vec<_> = (1..=edge.map_or(0, |i| i + 2)).map(onward).collect();
     line.extend(more);
+    edge.is_some()
 }
 
 /// Whether no hair grows at a point (m) of the skin.

@@ -57,7 +57,7 @@ fn neighbouring_hair_goes_the_same_way() {
                     let skin = a.normal.angle_between(b.normal);
                     // The ends of a parting are as sharp as the line.
                     let sharp = layout.partings.away(a.position, a.normal);
-                    if sharp.is_some_and(|(_, d)| d < 6e-3) {
+                    if sharp.is_some_and(|a| a.distance < 6e-3) {
                         continue;
                     }
                     assert!(turn < 0.45 + 2.0 * skin, "{flow:?}: {turn} at {}", a.position);
@@ -134,12 +134,31 @@ fn a_parting_parts() {
     }
 }
 
+#[test]
+fn a_parting_fades_where_it_ends_amid_hair() {
+    let layout = layout(Flow::Parted { offset: 0.0 }, |_| {});
+    let line = layout.partings.lines().next().unwrap();
+    let strength = |p: &DVec3| layout.partings.away(*p, root(*p).normal).unwrap().strength;
+    assert!(strength(&line[0]) > 0.99 && strength(&line[line.len() / 2]) > 0.99);
+    let end = root(*line.last().unwrap());
+    assert!(strength(&end.position) < 0.05);
+    // Hair on both sides of the end is combed back together, and covers it.
+    let aside = DVec3::X.reject_from(end.normal).normalize() * 4e-3;
+    let [left, right] = [aside, -aside].map(|step| layout.direction(&root(end.position + step)));
+    assert!(left.y > 0.3 && right.y > 0.3 && left.angle_between(right) < 0.9, "{left} {right}");
+}
+
 /// Hair beside each piece of a parting leaves it, and the two sides cannot go together.
 fn check_sides(layout: &Layout) {
     let lines: Vec<Vec<DVec3>> = layout.partings.lines().map(<[_]>::to_vec).collect();
     for line in lines {
         for pair in line.windows(2).skip(4).step_by(3).take(20) {
             let middle = root(0.5 * (pair[0] + pair[1]));
+            // It fades before an end amid hair.
+            let away = layout.partings.away(middle.position, middle.normal).unwrap();
+            if away.strength < 0.5 {
+                continue;
+            }
             let aside = (pair[1] - pair[0]).cross(middle.normal).normalize();
             let sides = [-1.0, 1.0].map(|side| root(middle.position + aside * (side * 1.5e-3)));
             assert!(layout.apart(sides[0].position, sides[0].position, sides[1].position));
@@ -318,7 +337,7 @@ fn drawn_hair_is_gathered_at_a_parting_on_its_own_side() {
         let to = layout.gathered(head(), from);
         assert!(to == from || head().signed_distance().value(to.position).abs() < 2e-4);
         assert!(!layout.partings.between(&layout.marks, from.position, to.position));
-        let distance = |r: &Root| layout.partings.away(r.position, r.normal).unwrap().1;
+        let distance = |r: &Root| layout.partings.away(r.position, r.normal).unwrap().distance;
         let (before, after) = (distance(&from), distance(&to));
         assert!(after < before + 1e-4 && (before < 12e-3 || after > before - 1e-6));
         near += usize::from(before < 1.5e-3);

@@ -427,8 +427,9 @@ mod tests {
     fn described(contact: HairContact, element: ElementKind) -> HairstyleSpec {
         let mut spec = preset("caucasian-curly").unwrap().spec();
         if contact == HairContact::Density {
-            // So few wisps do not press on each other otherwise.
-            spec.contact.volume = 4.0;
+            // So few wisps press on each other only where they are long and hang together.
+            spec.contact.volume = 2.5;
+            spec.length.mean = 0.4;
         }
         if contact == HairContact::None {
             // Soft enough for guides to lie on skin, which is firmer than what any of these curls needs.
