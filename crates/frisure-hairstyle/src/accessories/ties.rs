@@ -34,7 +34,7 @@ const ROOM: f64 = 1.2;
 /// The ties of a hairstyle.
 pub(super) fn ties(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
     let tie = |grip: &Grip| match *grip {
-        Grip::Clip { at, by: Fastener::Tie { middle }, .. } => Some((at, middle)),
+        Grip::Clip { at, by: Fastener::Tie { middle, .. }, .. } => Some((at, middle)),
         Grip::Braid { at, path } => Some((at, path.middle)),
         _ => None,
     };

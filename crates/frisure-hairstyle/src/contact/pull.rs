@@ -19,8 +19,10 @@ pub enum Pull {
     Clip {
         /// Arc length (m) at which the piece begins and ends.
         piece: [f64; 2],
-        /// The point p (m).
+        /// The point p (m) at which the piece begins.
         point: DVec3,
+        /// The way of the piece from there: a unit vector through a tie, zero where all of it is held at the point.
+        way: DVec3,
         /// Stiffness c (Pa).
         stiffness: f64,
         /// Largest force f per length (N/m).
@@ -41,7 +43,7 @@ pub enum Pull {
 
 frisure_digest::digest_fields!(
     Pull: Comb { force },
-    Clip { piece, point, stiffness, most },
+    Clip { piece, point, way, stiffness, most },
     Braid { path, piece, stiffness, most }
 );
 
@@ -50,8 +52,8 @@ impl Pull {
     pub(crate) fn scaled(self, factor: f64) -> Self {
         match self {
             Self::Comb { force } => Self::Comb { force: force * factor },
-            Self::Clip { piece, point, stiffness, most } => {
-                Self::Clip { piece, point, stiffness: stiffness * factor, most: most * factor }
+            Self::Clip { piece, point, way, stiffness, most } => {
+                Self::Clip { piece, point, way, stiffness: stiffness * factor, most: most * factor }
             }
             Self::Braid { path, piece, stiffness, most } => {
                 Self::Braid { path, piece, stiffness: stiffness * factor, most: most * factor }
@@ -63,12 +65,12 @@ impl Pull {
 impl Pull {
     /// A clip on its way to another place, of which it has gone the share 0 to 1; the other pull where either is no clip.
     pub(crate) fn moved(self, other: Self, share: f64) -> Self {
-        let (Self::Clip { point: from, .. }, Self::Clip { piece, point: to, stiffness, most }) =
+        let (Self::Clip { point: from, .. }, Self::Clip { piece, point: to, way, stiffness, most }) =
             (self, other)
         else {
             return other;
         };
-        Self::Clip { piece, point: from.lerp(to, share), stiffness, most }
+        Self::Clip { piece, point: from.lerp(to, share), way, stiffness, most }
     }
 }
 
@@ -92,8 +94,8 @@ impl Pull {
     fn spring(&self, s: f64) -> Option<(DVec3, f64, f64)> {
         match *self {
             Self::Comb { .. } => None,
-            Self::Clip { piece: [from, to], point, stiffness, most } => {
-                (from..=to).contains(&s).then_some((point, stiffness, most))
+            Self::Clip { piece: [from, to], point, way, stiffness, most } => {
+                (from..=to).contains(&s).then(|| (point + way * (s - from), stiffness, most))
             }
             Self::Braid { path, piece: [from, to], stiffness, most } => {
                 (from..=to).contains(&s).then(|| (path.place_beyond(s - from), stiffness, most))
@@ -138,9 +140,11 @@ mod tests {
     #[test]
     fn derivatives_agree_with_differences() {
         let point = DVec3::new(0.01, 0.02, -0.03);
-        let clip = Pull::Clip { piece: [0.0, 0.1], point, stiffness: 20.0, most: 0.1 };
+        let way = DVec3::new(0.6, 0.0, 0.8);
+        let clip = Pull::Clip { piece: [0.0, 0.1], point, way, stiffness: 20.0, most: 0.1 };
+        assert_eq!(clip.energy(0.05, point + way * 0.05), 0.0);
         for away in [DVec3::X * 1e-3, DVec3::new(0.01, -0.02, 0.03)] {
-            let p = point + away;
+            let p = point + way * 0.05 + away;
             let (gradient, hessian) = clip.derivatives(0.05, p).unwrap();
             let h = 1e-6;
             for axis in 0..3 {

@@ -137,8 +137,8 @@ pub(crate) enum Grip {
 pub(crate) enum Fastener {
     /// A clip.
     Clip,
-    /// A hair tie round a bundle with this middle (m), which all wisps in the tie share.
-    Tie { middle: DVec3 },
+    /// A hair tie round a bundle with this middle (m) and axis (unit, off the head), which all wisps in the tie share.
+    Tie { middle: DVec3, axis: DVec3 },
     /// A pin over a bundle with this middle (m).
     Pin { middle: DVec3 },
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::contact::{Pull, Thickness};
 use crate::guides::{Guide, grown_strain};
-use crate::hairstyle::{Grip, Mould, Styling};
+use crate::hairstyle::{Fastener, Grip, Mould, Styling};
 use crate::product::Applied;
 use crate::spec::HairstyleSpec;
 use crate::styling::wet_law::{WetFactors, stretched, wetted};
@@ -127,15 +127,18 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
         Grip::Comb { direction, strength } => {
             Some(Pull::Comb { force: direction * (strength * effort(rod, 0.0)) })
         }
-        Grip::Clip { at, to: point, .. } => {
-            // The whole piece stays on the hair, however near to an end the clip is.
-            let middle = at * rod.length();
-            let half = 0.5 * CLIP.1.min(rod.length());
-            let middle = middle.clamp(half, rod.length() - half);
-            let piece = [middle - half, middle + half];
+        Grip::Clip { at, to: point, by } => {
+            let long = CLIP.1.min(rod.length());
+            let (before, way) = match by {
+                // A tie turns hair into its axis, whichever side of the head it comes from, so that all of a tail hangs together.
+                Fastener::Tie { axis, .. } => (0.0, axis),
+                Fastener::Clip | Fastener::Pin { .. } => (0.5 * long, DVec3::ZERO),
+            };
+            // The whole piece stays on the hair, however near to an end it is held.
+            let from = (at * rod.length() - before).clamp(0.0, rod.length() - long);
             // A force per length of the piece that adds up to one on the whole hair.
-            let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / (2.0 * half);
-            Some(Pull::Clip { piece, point, stiffness: CLIP.0, most })
+            let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / long;
+            Some(Pull::Clip { piece: [from, from + long], point, way, stiffness: CLIP.0, most })
         }
         Grip::Braid { at, path } => {
             let from = (at * rod.length()).min(rod.length());

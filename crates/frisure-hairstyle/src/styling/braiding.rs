@@ -44,7 +44,7 @@ pub(super) fn braided(act: &Act<'_>, chosen: &[bool]) -> Result<Hairstyle, Style
     let before = act.before;
     let (mut middle, mut tied) = (DVec3::ZERO, Vec::new());
     for (wisp, state) in before.styling.wisps.iter().enumerate().filter(|(i, _)| chosen[*i]) {
-        if let Some(Grip::Clip { at, to, by: Fastener::Tie { middle: of } }) = state.grip {
+        if let Some(Grip::Clip { at, to, by: Fastener::Tie { middle: of, .. } }) = state.grip {
             middle = of;
             let beyond = before.guides[wisp].rod.length() * (1.0 - at);
             tied.push(Tied { wisp, at, place: to - of, beyond });

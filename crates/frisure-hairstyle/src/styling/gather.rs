@@ -37,8 +37,8 @@ pub(super) struct Gathering<'a> {
     pub(super) bundle: &'a dyn Fn(f64) -> (DVec3, DVec3),
     /// Where (m) hair is held before it goes to a bundle with this axis: off the head, so that none hangs on an ear or before the neck.
     pub(super) lifted: &'a dyn Fn(DVec3) -> DVec3,
-    /// What holds a bundle with this middle (m).
-    pub(super) by: fn(DVec3) -> Fastener,
+    /// What holds a bundle with this middle (m) and axis (unit).
+    pub(super) by: fn(DVec3, DVec3) -> Fastener,
     /// Whether the hand goes on with it before wisps make way for each other.
     pub(super) in_hand: bool,
 }
@@ -131,7 +131,7 @@ pub(super) fn gathered(
         (i, to, (way / before.guides[i].rod.length()).min(1.0))
     });
     // 3. Lifted off the head first, then held there.
-    let (lifted, by) = ((to.lifted)(axis), (to.by)(middle));
+    let (lifted, by) = ((to.lifted)(axis), (to.by)(middle, axis));
     let alone = Effort { sweeps: 0, ..Effort::FULL };
     let hand = Act { draft: Some(DraftRest { effort: alone, stride: 1, like: None }), ..*act };
     let up = places.iter().map(|&(i, _, at)| (i, lifted, at));

@@ -111,7 +111,7 @@ impl Apply for Tie {
             &Gathering {
                 bundle: &|radius| self.to.bundle(act.head, radius),
                 lifted: &|axis| centre + (axis + DVec3::Z).normalize_or(DVec3::Z) * LIFTED,
-                by: |middle| Fastener::Tie { middle },
+                by: |middle, axis| Fastener::Tie { middle, axis },
                 in_hand: self.braided,
             },
         )?;

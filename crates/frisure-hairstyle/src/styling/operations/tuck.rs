@@ -110,7 +110,7 @@ impl<'a> Ear<'a> {
         let to = Gathering {
             bundle: &|radius| self.bundle(radius),
             lifted: &|_| self.lifted(),
-            by: |middle| Fastener::Pin { middle },
+            by: |middle, _| Fastener::Pin { middle },
             in_hand: false,
         };
         gathered(act, &chosen, &to)
