@@ -365,3 +365,38 @@ fn shoulders_and_chest_are_where_a_head_has_them() {
         assert!(width(chest) > 0.19 && shoulders - chest > 0.08 && shoulders < chin, "{name}");
     }
 }
+
+#[test]
+fn hair_lies_on_what_is_rooted_on_its_way() {
+    let marks = head().landmarks();
+    let forehead = root(marks.hairline + DVec3::new(0.0, 0.006, 0.004));
+    let way = |spec: &HairstyleSpec, head: &Head, at: &Root, length: f64| {
+        let layout = Layout::new(spec, head).unwrap();
+        Ways::new(spec, head, &layout).over_hair(at, length)
+    };
+    let combed = |comb| {
+        let style = RegionStyle {
+            places: vec![Place::Everywhere],
+            length: None,
+            comb: Some(comb),
+            lift: None,
+            curl: None,
+        };
+        spec(Flow::SweptBack, |s| s.regions = vec![style])
+    };
+    // Nothing is beneath hair that falls over the forehead, and the top of the head beneath hair that is combed back.
+    let [down, back] =
+        [Comb::Down, Comb::Back].map(|comb| way(&combed(comb), head(), &forehead, 0.2));
+    assert!(down < 0.02 && back > 0.14, "{down} {back}");
+    // No more than the hair is long.
+    assert!(way(&combed(Comb::Back), head(), &forehead, 0.06) < 0.0601);
+    // At the side, what is below the root.
+    let side = root(marks.cranium_centre + DVec3::new(0.09, 0.01, 0.05));
+    let below = way(&combed(Comb::Down), head(), &side, 0.3);
+    assert!((0.01..0.12).contains(&below), "{below}");
+    // A head with a scalp of its own says the same.
+    let scalp = crate::head::ScalpSource::Weights(head().scalp().to_vec());
+    let own = Head::from_surface(head().surface().clone(), scalp).unwrap();
+    let of_vertices = way(&combed(Comb::Down), &own, &side, 0.3);
+    assert!((of_vertices - below).abs() < 0.015, "{of_vertices} {below}");
+}

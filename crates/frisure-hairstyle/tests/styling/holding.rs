@@ -128,6 +128,17 @@ fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
             .max_by(|a, b| through(*a, 0.02).cmp(&through(*b, 0.02)).then(a.x.total_cmp(&b.x)));
         let middle = middle.unwrap();
         assert!(through(middle, 0.035) >= held, "{to:?}: {}", through(middle, 0.035));
+        // It leaves the head as one: hair in the tie runs the same way, whichever side it comes from.
+        let ways = tied.wisps().iter().zip(tied.equilibria()).filter_map(|(wisp, rest)| {
+            let (at, _) = wisp.clipped()?;
+            let (chain, half) = (rest.chain(), 0.006 / rest.rod.length());
+            let along = |s: f64| rest.at(&chain, s).0;
+            Some((along((at + 2.0 * half).min(1.0)) - along(at)).normalize())
+        });
+        let ways: Vec<DVec3> = ways.collect();
+        let mean = ways.iter().sum::<DVec3>().normalize();
+        let aside = ways.iter().filter(|way| way.angle_between(mean) > 0.5).count();
+        assert!(10 * aside <= ways.len(), "{to:?}: {aside} of {}", ways.len());
         // Where it was asked for: behind the head, on the left …
         let behind = (middle - centre).dot(HEAD.landmarks().face);
         assert!(behind < 0.0, "{to:?}: {middle}");
