@@ -54,20 +54,21 @@ impl<'a> Ways<'a> {
     pub(crate) fn over_hair(&self, root: &Root, length: f64) -> f64 {
         let skin = self.head.signed_distance();
         let (mut at, mut over, mut bare) = (*root, 0.0, 0.0);
-        for _ in 0..(length.min(LONGEST) / STEP) as usize {
+        // The last step is what is left, so that the way is a continuous function of the length.
+        let mut left = length.min(LONGEST);
+        while left > 0.0 && bare < LEFT {
+            let step = STEP.min(left);
+            left -= step;
             let along = self.layout.along(&at).0;
             // Where the flow has no direction, hair stands up.
             let Some(along) = along.try_normalize() else { break };
-            let ahead = at.position + along * STEP;
+            let ahead = at.position + along * step;
             let (distance, away) = skin.value_gradient(ahead);
             let normal = away.normalize_or(at.normal);
             at = Root { position: ahead - normal * distance, normal };
             let here = self.density(at.position);
-            over += here * STEP;
-            bare = if here > 0.0 { 0.0 } else { bare + STEP };
-            if bare > LEFT {
-                break;
-            }
+            over += here * step;
+            bare = if here > 0.0 { 0.0 } else { bare + step };
         }
         over
     }
