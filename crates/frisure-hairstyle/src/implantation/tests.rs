@@ -390,6 +390,10 @@ fn hair_lies_on_what_is_rooted_on_its_way() {
     assert!(down < 0.02 && back > 0.14, "{down} {back}");
     // No more than the hair is long.
     assert!(way(&combed(Comb::Back), head(), &forehead, 0.06) < 0.0601);
+    // A whole number of steps is nothing special: all of a head moves with the least change of its length otherwise.
+    let [shorter, longer] = [1.0 - 1e-6, 1.0 + 1e-6]
+        .map(|factor| way(&combed(Comb::Back), head(), &forehead, 0.05 * factor));
+    assert!((longer - shorter).abs() < 2e-7, "{longer} {shorter}");
     // At the side, what is below the root.
     let side = root(marks.cranium_centre + DVec3::new(0.09, 0.01, 0.05));
     let below = way(&combed(Comb::Down), head(), &side, 0.3);
