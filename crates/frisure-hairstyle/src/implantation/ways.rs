@@ -21,7 +21,7 @@ const LEFT: f64 = 0.05;
 /// Where hair grows on a head.
 enum Growth<'a> {
     /// Inside a natural hairline.
-    Line(Edge),
+    Line(Box<Edge>),
     /// As vertices have it.
     Vertices { grid: Grid, positions: &'a [DVec3], weights: &'a [f64] },
 }
@@ -44,7 +44,7 @@ impl<'a> Ways<'a> {
                     weights: head.scalp(),
                 }
             },
-            Growth::Line,
+            |edge| Growth::Line(Box::new(edge)),
         );
         Self { head, layout, growth }
     }
