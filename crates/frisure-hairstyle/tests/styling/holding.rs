@@ -131,9 +131,9 @@ fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
         // It leaves the head as one: hair in the tie runs the same way, whichever side it comes from.
         let ways = tied.wisps().iter().zip(tied.equilibria()).filter_map(|(wisp, rest)| {
             let (at, _) = wisp.clipped()?;
-            let (chain, half) = (rest.chain(), 0.006 / rest.rod.length());
+            let (chain, tie) = (rest.chain(), 0.012 / rest.rod.length());
             let along = |s: f64| rest.at(&chain, s).0;
-            Some((along((at + 2.0 * half).min(1.0)) - along(at)).normalize())
+            Some((along((at + tie).min(1.0)) - along(at)).normalize())
         });
         let ways: Vec<DVec3> = ways.collect();
         let mean = ways.iter().sum::<DVec3>().normalize();
