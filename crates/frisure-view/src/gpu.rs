@@ -192,6 +192,8 @@ pub(crate) struct PipelineSpec<'a> {
     /// Comparison with the depth buffer, and whether it is written.
     pub(crate) depth: Option<(CompareFunction, bool)>,
     pub(crate) samples: u32,
+    /// Constants of the shaders (`override` in WGSL).
+    pub(crate) constants: &'a [(&'a str, f64)],
     /// Four corners make a rectangle.
     pub(crate) strip: bool,
 }
@@ -235,7 +237,10 @@ impl PipelineSpec<'_> {
             fragment: self.fragment.map(|entry| wgpu::FragmentState {
                 module: self.shader,
                 entry_point: Some(entry),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: self.constants,
+                    ..Default::default()
+                },
                 targets: &targets,
             }),
             multiview_mask: None,

@@ -48,6 +48,7 @@ mod hair;
 mod lamps;
 mod marks;
 mod paint;
+mod pieces;
 mod renderer;
 mod ribbons;
 mod shadow_maps;

@@ -26,6 +26,7 @@ pub(crate) struct Layouts {
     pub(crate) hair: BindGroupLayout,
     pub(crate) environment: BindGroupLayout,
     pub(crate) ribbons: BindGroupLayout,
+    pub(crate) pieces: BindGroupLayout,
     pub(crate) density: BindGroupLayout,
     pub(crate) current: BindGroupLayout,
     pub(crate) finish: BindGroupLayout,
@@ -40,11 +41,13 @@ pub(crate) struct Pipelines {
     pub(crate) density: RenderPipeline,
     pub(crate) head_depth: RenderPipeline,
     pub(crate) shade: RenderPipeline,
-    pub(crate) skin: RenderPipeline,
+    /// Without and with shadows of hair and soft ones of the head.
+    pub(crate) skin: [RenderPipeline; 2],
     pub(crate) skin_depth: RenderPipeline,
     pub(crate) hair: RenderPipeline,
     pub(crate) finish: RenderPipeline,
-    pub(crate) compose: RenderPipeline,
+    /// Without and with the environment as the background.
+    pub(crate) compose: [RenderPipeline; 2],
     pub(crate) lines: RenderPipeline,
     pub(crate) lines_on_top: RenderPipeline,
     pub(crate) show: RenderPipeline,
@@ -80,6 +83,7 @@ impl Layouts {
             hair: of("hair", &[sharp, Slot::Whole, sharp, sharp, sharp, sharp]),
             environment: of("environment", &[Slot::Volume]),
             ribbons: of("ribbons", &[sharp, sharp]),
+            pieces: of("pieces", &[Slot::Whole]),
             density: of("density", &[sharp, layers, sampler]),
             current: of("current lamp", &[Slot::Dynamic]),
             finish: of("finish", &[sharp]),
@@ -119,7 +123,6 @@ const fn buffer(
 }
 
 /// One number per copy of a shape.
-const PIECE: Buffer = buffer(4, VertexStepMode::Instance, &vertex_attr_array![0 => Uint32]);
 const LEVEL: Buffer = buffer(4, VertexStepMode::Instance, &vertex_attr_array![0 => Float32]);
 const STROKE: Buffer = buffer(
     48,
@@ -147,11 +150,11 @@ impl Pipelines {
             density: self::density(device, l, &density),
             head_depth: head_depth(device, l, &surface),
             shade: shade(device, l),
-            skin: skin(device, l, samples),
+            skin: [false, true].map(|shadows| skin(device, l, samples, shadows)),
             skin_depth: skin_depth(device, l, &surface),
             hair: hair(device, l),
             finish: finish(device, l),
-            compose: compose(device, l),
+            compose: [false, true].map(|around| compose(device, l, around)),
             lines: stroke("lines", CompareFunction::Less),
             lines_on_top: stroke("lines on top", CompareFunction::Always),
             show: show(device, l, output),
@@ -171,6 +174,7 @@ fn plain<'a>(label: &'a str, shader: &'a ShaderModule, vertex: &'a str) -> Pipel
         targets: &[],
         depth: None,
         samples: 1,
+        constants: &[],
         strip: false,
     }
 }
@@ -179,10 +183,8 @@ fn first(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline 
     let least = blend(BlendFactor::One, BlendFactor::One, BlendOperation::Min);
     PipelineSpec {
         fragment: Some("nearest"),
-        groups: &[&l.picture, &l.ribbons, &l.current],
-        buffers: &[PIECE],
+        groups: &[&l.picture, &l.ribbons, &l.current, &l.pieces],
         targets: &[(TextureFormat::R16Float, least)],
-        strip: true,
         ..plain("first hair", shader, "first_vertex")
     }
     .pipeline(device)
@@ -192,10 +194,8 @@ fn density(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipelin
     let sum = blend(BlendFactor::One, BlendFactor::One, BlendOperation::Add);
     PipelineSpec {
         fragment: Some("lay"),
-        groups: &[&l.picture, &l.density, &l.current],
-        buffers: &[PIECE],
+        groups: &[&l.picture, &l.density, &l.current, &l.pieces],
         targets: &[(LIGHT, sum); 4],
-        strip: true,
         ..plain("density", shader, "ribbon")
     }
     .pipeline(device)
@@ -225,7 +225,7 @@ fn shade(device: &Device, l: &Layouts) -> RenderPipeline {
     .pipeline(device)
 }
 
-fn skin(device: &Device, l: &Layouts, samples: u32) -> RenderPipeline {
+fn skin(device: &Device, l: &Layouts, samples: u32, shadows: bool) -> RenderPipeline {
     let own = include_str!("shaders/skin.wgsl");
     let shader = module(device, "skin", &[COMMON, LAYERS, SHADOWS, own]);
     PipelineSpec {
@@ -235,6 +235,7 @@ fn skin(device: &Device, l: &Layouts, samples: u32) -> RenderPipeline {
         targets: &[(LIGHT, None)],
         depth: Some((CompareFunction::Less, true)),
         samples,
+        constants: &[("SHADOWS", f64::from(u8::from(shadows)))],
         ..plain("skin", &shader, "skin_vertex")
     }
     .pipeline(device)
@@ -256,11 +257,9 @@ fn hair(device: &Device, l: &Layouts) -> RenderPipeline {
     let under = blend(BlendFactor::OneMinusDstAlpha, BlendFactor::One, BlendOperation::Add);
     PipelineSpec {
         fragment: Some("paint"),
-        groups: &[&l.picture, &l.ribbons],
-        buffers: &[PIECE],
+        groups: &[&l.picture, &l.ribbons, &l.pieces],
         targets: &[(LIGHT, under)],
         depth: Some((CompareFunction::Less, false)),
-        strip: true,
         ..plain("hair", &shader, "ribbon")
     }
     .pipeline(device)
@@ -278,12 +277,13 @@ fn finish(device: &Device, l: &Layouts) -> RenderPipeline {
     .pipeline(device)
 }
 
-fn compose(device: &Device, l: &Layouts) -> RenderPipeline {
+fn compose(device: &Device, l: &Layouts, around: bool) -> RenderPipeline {
     let shader = module(device, "compose", &[COMMON, include_str!("shaders/compose.wgsl")]);
     PipelineSpec {
         fragment: Some("compose"),
         groups: &[&l.picture, &l.compose],
         targets: &[(TextureFormat::Rgba8Unorm, None)],
+        constants: &[("AROUND", f64::from(u8::from(around)))],
         ..plain("compose", &shader, "whole")
     }
     .pipeline(device)

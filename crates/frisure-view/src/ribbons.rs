@@ -3,11 +3,12 @@
 use bytemuck::cast_slice;
 use frisure_look::Camera;
 use glam::Vec3;
-use wgpu::{Buffer, BufferUsages, Device, Queue};
+use wgpu::{Buffer, BufferUsages, Device};
 
 use crate::context::FrameContext;
 use crate::gpu;
 use crate::hair::{Hair, ROW};
+use crate::pieces::Pieces;
 use crate::renderer::Renderer;
 
 /// Parts of the hair, nearest first, between which finished pixels are closed: where each ends, in parts of
@@ -29,7 +30,7 @@ pub(crate) struct Shaded {
 #[derive(Debug)]
 pub(crate) struct Sorted {
     key: (u64, usize, Vec3, Vec3),
-    pub(crate) pieces: Buffer,
+    pub(crate) pieces: Pieces,
     /// Depth at which each part ends.
     pub(crate) levels: Buffer,
     /// Pieces up to the end of each part.
@@ -64,22 +65,10 @@ impl Sorted {
         let ends: Vec<u32> = parts.iter().map(end).chain([count as u32]).collect();
         let level = |&end: &u32| nearest.depth((end as usize).saturating_sub(1));
         let levels: Vec<f32> = ends.iter().map(level).collect();
-        let buffer =
-            |label, bytes| gpu::buffer(job.device, job.queue, label, bytes, BufferUsages::VERTEX);
-        let bytes = cast_slice(&nearest.pieces);
-        let pieces = match known.take() {
-            Some(old) if old.pieces.size() >= bytes.len() as u64 => {
-                rewrite(job.queue, &old.pieces, bytes);
-                old.pieces
-            }
-            _ => buffer("pieces", bytes),
-        };
-        *known = Some(Self { key, pieces, levels: buffer("levels", cast_slice(&levels)), ends });
-    }
-}
-
-fn rewrite(queue: &Queue, buffer: &Buffer, bytes: &[u8]) {
-    if !bytes.is_empty() {
-        queue.write_buffer(buffer, 0, bytes);
+        let (usage, bytes) = (BufferUsages::VERTEX, cast_slice(&levels));
+        let levels = gpu::buffer(job.device, job.queue, "levels", bytes, usage);
+        let old = known.take().map(|sorted| sorted.pieces);
+        let pieces = Pieces::new(job.renderer, job.device, job.queue, nearest.pieces, old);
+        *known = Some(Self { key, pieces, levels, ends });
     }
 }

@@ -11,6 +11,7 @@ use crate::frame::Shadows;
 use crate::gpu::{self, DEPTH, LIGHT};
 use crate::hair::Hair;
 use crate::lamps::{FIRST_MAP, HAIR_MAP, HEAD_MAP, LAMPS, Lamp};
+use crate::pieces::Pieces;
 use crate::renderer::Renderer;
 use crate::skin::Skin;
 
@@ -31,8 +32,8 @@ pub(crate) struct ShadowMaps {
     shadows: BindGroup,
     /// Numbers of the lamp whose maps are drawn.
     current: (Buffer, BindGroup),
-    /// First vertices of pieces.
-    pieces: Option<(u64, usize, u32, Buffer)>,
+    /// Pieces of a shape and a number of strands.
+    pieces: Option<(u64, usize, Pieces)>,
     hair_key: Option<(u64, usize, Vec<Lamp>)>,
     head_key: Option<(u64, Vec<Lamp>)>,
 }
@@ -121,10 +122,9 @@ impl ShadowMaps {
         strands: usize,
     ) {
         if self.pieces.as_ref().is_none_or(|p| (p.0, p.1) != (hair.shape(), strands)) {
-            let (pieces, usage) = (hair.pieces_of(strands), BufferUsages::VERTEX);
-            let bytes = cast_slice(&pieces);
-            let buffer = gpu::buffer(job.device, job.queue, "some pieces", bytes, usage);
-            self.pieces = Some((hair.shape(), strands, pieces.len() as u32, buffer));
+            let (some, old) = (hair.pieces_of(strands), self.pieces.take().map(|known| known.2));
+            let pieces = Pieces::new(job.renderer, job.device, job.queue, some, old);
+            self.pieces = Some((hair.shape(), strands, pieces));
         }
         let view = gpu::layers(&self.first);
         let resources = [
@@ -173,11 +173,10 @@ impl ShadowMaps {
 
     /// The pieces, with the pipeline and the group 1 that are set.
     fn draw_pieces(&self, job: &FrameContext<'_>, pass: &mut wgpu::RenderPass<'_>, lamp: u32) {
-        let Some((_, _, count, pieces)) = &self.pieces else { return };
+        let Some((_, _, pieces)) = &self.pieces else { return };
         pass.set_bind_group(0, &job.picture, &[]);
         pass.set_bind_group(2, &self.current.1, &[STRIDE as u32 * lamp]);
-        pass.set_vertex_buffer(0, pieces.slice(..));
-        pass.draw(0..4, 0..*count);
+        pieces.draw(pass, 3, 0..pieces.count());
     }
 
     /// Depth of the head from each lamp.

@@ -1,6 +1,7 @@
 //! Composition of hair, head and background, tone mapping, and lines over them.
 
 use bytemuck::cast_slice;
+use frisure_look::Background;
 use wgpu::{BindingResource, BufferUsages, CommandEncoder};
 
 use crate::canvas::Canvas;
@@ -21,7 +22,8 @@ impl FrameContext<'_> {
         let view = gpu::whole(&targets.picture);
         let target = [gpu::target(&view, Some([0.0; 4]))];
         let mut pass = gpu::pass(encoder, "compose", &target, None);
-        pass.set_pipeline(&self.renderer.pipelines.compose);
+        let seen = matches!(self.frame.look.background, Background::Environment);
+        pass.set_pipeline(&self.renderer.pipelines.compose[usize::from(seen)]);
         pass.set_bind_group(0, &self.picture, &[]);
         pass.set_bind_group(1, &layers, &[]);
         pass.draw(0..3, 0..1);

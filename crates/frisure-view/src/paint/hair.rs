@@ -51,9 +51,7 @@ impl FrameContext<'_> {
                 pass.set_pipeline(&self.renderer.pipelines.hair);
                 pass.set_bind_group(0, &self.picture, &[]);
                 pass.set_bind_group(1, &shaded.group, &[]);
-                let part = u64::from(begin) * 4..u64::from(end) * 4;
-                pass.set_vertex_buffer(0, sorted.pieces.slice(part));
-                pass.draw(0..4, 0..end - begin);
+                sorted.pieces.draw(&mut pass, 2, begin..end);
             }
             drop(pass);
             begin = end;

@@ -4,6 +4,7 @@ use wgpu::CommandEncoder;
 
 use crate::canvas::{Canvas, Fine};
 use crate::context::FrameContext;
+use crate::frame::Shadows;
 use crate::gpu;
 
 impl FrameContext<'_> {
@@ -41,7 +42,8 @@ impl FrameContext<'_> {
         let covered = gpu::group(self.device, &self.renderer.layouts.finish, &resources);
         let mut pass = gpu::pass(encoder, "head", &[target], Some(gpu::depth_target(&depth, true)));
         if let Some(skin) = self.frame.skin {
-            pass.set_pipeline(&self.renderer.pipelines.skin);
+            let shadows = usize::from(self.frame.shadows != Shadows::None);
+            pass.set_pipeline(&self.renderer.pipelines.skin[shadows]);
             pass.set_bind_group(0, &self.picture, &[]);
             pass.set_bind_group(1, maps.group(), &[]);
             pass.set_bind_group(2, &covered, &[]);

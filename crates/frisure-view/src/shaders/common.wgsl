@@ -159,10 +159,11 @@ fn behind_plane(light: vec3<f32>, p: vec3<f32>, plane: Plane) -> vec3<f32> {
     return mix(light, plane.colour.rgb, min(opacity, 1.0));
 }
 
-// Light from behind all planes.
-fn behind_planes(light: vec3<f32>, p: vec3<f32>) -> vec3<f32> {
-    let a = behind_plane(light, p, picture.planes[0]);
-    let b = behind_plane(a, p, picture.planes[1]);
-    let c = behind_plane(b, p, picture.planes[2]);
-    return behind_plane(c, p, picture.planes[3]);
+// Light from behind the first `count` planes.
+fn behind_planes(light: vec3<f32>, p: vec3<f32>, count: i32) -> vec3<f32> {
+    var left = light;
+    for (var i = 0; i < count; i += 1) {
+        left = behind_plane(left, p, picture.planes[i]);
+    }
+    return left;
 }

@@ -5,6 +5,8 @@
 @group(1) @binding(2) var smooth_sampler: sampler;
 // x: the lamp; y: factor on the width of hairs.
 @group(2) @binding(0) var<uniform> current: vec4<f32>;
+// First vertices of pieces.
+@group(3) @binding(0) var pieces: texture_2d<u32>;
 
 struct First {
     @builtin(position) at: vec4<f32>,
@@ -13,8 +15,10 @@ struct First {
 
 // The nearest hair: a square of three texels around each vertex.
 @vertex
-fn first_vertex(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> First {
+fn first_vertex(@builtin(vertex_index) vertex: u32) -> First {
     var out: First;
+    let first = textureLoad(pieces, texel(piece_of(vertex)), 0).x;
+    let corner = corner_of(vertex);
     let lamp = picture.lamps[i32(current.x)];
     let m = in_hair_map(lamp, textureLoad(places, texel(first), 0).xyz);
     let side = vec2<f32>(f32(corner & 1u), f32(corner >> 1u)) * 2.0 - 1.0;
@@ -37,8 +41,9 @@ struct Ribbon {
 }
 
 @vertex
-fn ribbon(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> Ribbon {
+fn ribbon(@builtin(vertex_index) vertex: u32) -> Ribbon {
     var out: Ribbon;
+    let first = textureLoad(pieces, texel(piece_of(vertex)), 0).x;
     let lamp = picture.lamps[i32(current.x)];
     let a = textureLoad(places, texel(first), 0);
     let b = textureLoad(places, texel(first + 1u), 0);
@@ -46,7 +51,7 @@ fn ribbon(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> Ribbon
     let q = in_hair_map(lamp, b.xyz);
     let width = 0.25 * (a.w + b.w) * current.y * lamp.hair.x * lamp.hair.z;
     // About as soft as the preview's maps: the pieces drawn are a sample of all.
-    let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(3.5, 3.5), corner);
+    let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(3.5, 3.5), corner_of(vertex));
     let ndc = line.at / lamp.hair.z * 2.0 - 1.0;
     out.offset = line.offset;
     out.depth = select(p.z, q.z, line.end > 0.5);

@@ -2,6 +2,8 @@
 
 @group(1) @binding(0) var places: texture_2d<f32>;
 @group(1) @binding(1) var lights: texture_2d<f32>;
+// First vertices of pieces.
+@group(2) @binding(0) var pieces: texture_2d<u32>;
 
 struct Ribbon {
     @builtin(position) at: vec4<f32>,
@@ -12,15 +14,16 @@ struct Ribbon {
 }
 
 @vertex
-fn ribbon(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> Ribbon {
+fn ribbon(@builtin(vertex_index) vertex: u32) -> Ribbon {
     var out: Ribbon;
+    let first = textureLoad(pieces, texel(piece_of(vertex)), 0).x;
     let a = textureLoad(places, texel(first), 0);
     let b = textureLoad(places, texel(first + 1u), 0);
     let p = project(a.xyz);
     let q = project(b.xyz);
     let width = (a.w + b.w) * picture.forward.w * picture.eye.w / max(p.z + q.z, 1e-6);
     // The least softening is that of the preview (`preview/composite.rs`).
-    let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(0.35, 1.0), corner);
+    let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(0.35, 1.0), corner_of(vertex));
     let end = line.end > 0.5;
     out.light = textureLoad(lights, texel(select(first, first + 1u, end)), 0);
     out.offset = line.offset;

@@ -13,6 +13,17 @@ struct Line {
     exists: bool,
 }
 
+// Corner (0 to 3) of a piece that a vertex is: six, two triangles, for each.
+fn corner_of(vertex: u32) -> u32 {
+    // 0, 1, 2 and 2, 1, 3, in two bits each.
+    return (0xda4u >> (2u * (vertex % 6u))) & 3u;
+}
+
+// Number of a piece in its list.
+fn piece_of(vertex: u32) -> u32 {
+    return vertex / 6u;
+}
+
 // Corner `corner` (0 to 3) of a piece from p to q (pixels) that is 2 `width` wide, its edges softened over
 // at least `softness` pixels. It runs along the axis to which it is closer, so that it owns whole columns of
 // pixels and shares none with the next piece of its strand.

@@ -11,12 +11,13 @@
 
 struct Rows {
     @builtin(position) at: vec4<f32>,
-    @location(0) @interpolate(flat) lamps: i32,
+    // How many lamps and planes there are.
+    @location(0) @interpolate(flat) counts: vec2<i32>,
 }
 
 @vertex
 fn every_vertex(@builtin(vertex_index) corner: u32) -> Rows {
-    return Rows(everything(corner), i32(picture.film.z));
+    return Rows(everything(corner), vec2<i32>(i32(picture.film.z), i32(picture.film.w)));
 }
 
 // The unit vector that an octahedron was unfolded from.
@@ -119,13 +120,13 @@ fn shade(in: Rows) -> @location(0) vec4<f32> {
 
     let mirrored = point.diffuse + picture.reflected.w * point.reflected + point.returned;
     var light = room_light(point.p) * mirrored;
-    for (var i = 0; i < in.lamps; i += 1) {
+    for (var i = 0; i < in.counts.x; i += 1) {
         light += from_lamp(point, picture.lamps[i]);
     }
 
     let mark = textureLoad(marks, texel(strand), 0);
     let bright = max(max(light.r, light.g), light.b);
     light = mix(light, picture.chosen.rgb * (0.25 + bright), picture.chosen.a * mark.x);
-    light = behind_planes(light, point.p);
+    light = behind_planes(light, point.p, in.counts.y);
     return vec4<f32>(light, wet_and_part.y - mark.y);
 }

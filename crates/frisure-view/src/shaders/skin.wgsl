@@ -5,6 +5,9 @@
 // Coverage by hair from which on the head behind it is not shaded. Chosen: half a step of an 8-bit picture.
 const HIDDEN: f32 = 0.998;
 
+// Whether hair keeps light out, and the head's shadows may be soft. Of a pipeline each: software computes both sides of a branch.
+override SHADOWS: bool = true;
+
 struct Vertex {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
@@ -17,8 +20,8 @@ struct Skin {
     @location(0) place: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) ambient: vec3<f32>,
-    // Lamps, and whether the head's shadows are soft.
-    @location(3) @interpolate(flat) kinds: vec2<i32>,
+    // Lamps, whether the head's shadows are soft, and planes.
+    @location(3) @interpolate(flat) kinds: vec3<i32>,
     // Red of lips, blood beneath the skin, and whether a garment covers it (above one half). Of an accessory its colour, and one
     // plus the strength of its gloss.
     @location(4) tint: vec4<f32>,
@@ -34,7 +37,7 @@ fn projected(p: vec3<f32>) -> vec4<f32> {
 
 @vertex
 fn skin_vertex(in: Vertex) -> Skin {
-    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)), in.tint);
+    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec3<i32>(i32(picture.film.z), i32(picture.hair.y), i32(picture.film.w)), in.tint);
 }
 
 // Places on a lamp as wide as a soft box: the middle, a ring of eight of which four come first, and a ring of four
@@ -54,7 +57,7 @@ fn on_lamp(lamp: Lamp, i: i32, radius: f32) -> vec3<f32> {
 fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, places: i32) -> f32 {
     // The farther away what casts the shadow is, the wider the blur (percentage-closer soft shadows).
     var radius = picture.skin_shape.z;
-    if places > 1 {
+    if SHADOWS && places > 1 {
         var distance = 0.0;
         var casting = 0.0;
         for (var i = 0; i < FEW; i += 1) {
@@ -65,7 +68,7 @@ fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, places: i32) -> f32 {
         radius = clamp(picture.skin_depth.w * distance / max(casting, 1.0), radius, picture.skin_blur.x);
     }
     var open = 0.0;
-    var count = places;
+    var count = select(1, places, SHADOWS);
     for (var i = 0; i < count; i += 1) {
         open += past_head(lamp, p + on_lamp(lamp, i, radius), bias);
         if i + 1 == FEW && (open == 0.0 || open == f32(FEW)) {
@@ -122,13 +125,14 @@ fn cover(place: vec3<f32>, normal: vec3<f32>, tint: vec4<f32>) -> Cover {
     if tint.z > 0.5 {
         found = Cover(picture.garment.rgb, 0.0, vec2<f32>(0.0, 1.0), normal);
     }
-    for (var i = 0; i < 2; i += 1) {
-        let eye = picture.eyes[i];
-        let away = place - eye.ball.xyz;
-        // Lids are thicker than a hundredth of the ball.
-        if abs(length(away) - eye.ball.w) < 0.01 * eye.ball.w {
-            found = eyeball(eye, normalize(away));
-        }
+    var eye = picture.eyes[0];
+    if distance(place, picture.eyes[1].ball.xyz) < distance(place, eye.ball.xyz) {
+        eye = picture.eyes[1];
+    }
+    let away = place - eye.ball.xyz;
+    // Lids are thicker than a hundredth of the ball.
+    if abs(length(away) - eye.ball.w) < 0.01 * eye.ball.w {
+        found = eyeball(eye, normalize(away));
     }
     return found;
 }
@@ -145,8 +149,11 @@ fn skin_from(lamp: Lamp, made: Cover, place: vec3<f32>, eye: vec3<f32>, places: 
     }
     let lifted = place + bias * normal;
     let open = past_head_from(lamp, lifted, bias, places);
-    let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
-    let passed = open * exp(-met.before * picture.extinction.rgb);
+    var passed = vec3<f32>(open);
+    if SHADOWS {
+        let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
+        passed *= exp(-met.before * picture.extinction.rgb);
+    }
     let half = normalize(lamp.towards.xyz + eye);
     let gloss = made.gloss.x * pow(max(dot(normal, half), 0.0), made.gloss.y);
     // Red light goes far beneath the skin.
@@ -169,5 +176,5 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     for (var i = 0; i < in.kinds.x; i += 1) {
         light += skin_from(picture.lamps[i], made, in.place, eye, select(1, ALL, in.kinds.y > 0));
     }
-    return vec4<f32>(behind_planes(light, in.place), 1.0);
+    return vec4<f32>(behind_planes(light, in.place, in.kinds.z), 1.0);
 }
