@@ -55,8 +55,8 @@ class Maker:
 
     def run(self, *arguments):
         done = subprocess.run([self.program, *map(str, arguments)], cwd=SCENES, capture_output=True, text=True)
-        # A guide that has not converged ends with status 1, and the picture is there all the same.
-        if done.returncode not in (0, 1):
+        # A guide that has not converged ends with status 1, and the picture is there all the same; errors end with it, too.
+        if done.returncode not in (0, 1) or done.stderr.startswith("error"):
             raise SystemExit(f"frisure {' '.join(map(str, arguments))}\n{done.stderr}")
 
     def traced(self, hair, size, look=None, share=0.85, scale=1):
