@@ -293,9 +293,13 @@ impl Population<'_> {
     ) -> DVec3 {
         let &Place { along, gathered, width } = place;
         let mut centre = DVec3::ZERO;
+        let mut of_main = None;
         for &(g, weight) in followed {
             // A(x) + n(x) T(x) δ, weighted over the guides. docs/theory.md, "Wisps"
             let (axis, turn) = self.wisps[g].centre(x);
+            if g == main {
+                of_main = Some((axis, turn));
+            }
             let across = root - self.roots[g];
             centre +=
                 (axis + turn * across * (width * self.narrowing(g, along, gathered))) * weight;
@@ -307,7 +311,7 @@ impl Population<'_> {
             let mean: DVec3 = followed.iter().map(|&(g, weight)| begin(g) * weight).sum();
             centre += (mean - begin(main)) * (1.0 - departed);
         }
-        let axis = self.wisps[main].axis(x);
+        let axis = self.wisps[main].axis(x, of_main.unwrap_or_else(|| self.wisps[main].centre(x)));
         let turned = DQuat::from_axis_angle(axis.direction, own.phase * departed);
         centre + turned * axis.curl * (1.0 + (own.radius - 1.0) * departed)
     }

@@ -91,10 +91,9 @@ impl Wisp {
         (catmull_rom(&self.axis, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
     }
 
-    /// The direction of the axis and the curl about it, at `x` as in [`Self::centre`].
-    pub(crate) fn axis(&self, x: f64) -> AxisPoint {
+    /// The direction of the axis and the curl about it, at `x` where [`Self::centre`] is known.
+    pub(crate) fn axis(&self, x: f64, (centre, turn): (DVec3, DQuat)) -> AxisPoint {
         let (i, t) = self.place(x);
-        let (centre, turn) = self.centre(x);
         let curl = catmull_rom(&self.positions, i, t) - centre;
         AxisPoint { curl, direction: turn * self.forward }
     }
@@ -257,10 +256,11 @@ mod tests {
     fn a_curl_winds_about_its_axis_from_the_root_to_the_tip() {
         let rest = equilibrium(&weightless(0.12), &[], &Options::default());
         let wisp = Wisp::new(&rest, 481, 0.02);
-        let (start, along) = (wisp.centre(0.0).0, wisp.axis(0.0).direction);
+        let (start, along) = (wisp.centre(0.0).0, wisp.axis(0.0, wisp.centre(0.0)).direction);
         for k in 0..=20 {
             let x = f64::from(k) / 20.0 * wisp.end();
-            let (centre, AxisPoint { curl, direction }) = (wisp.centre(x).0, wisp.axis(x));
+            let (centre, AxisPoint { curl, direction }) =
+                (wisp.centre(x).0, wisp.axis(x, wisp.centre(x)));
             // Radius of the helix, and a straight axis.
             assert!((curl.length() - 0.004).abs() < 1e-4, "{x}: {}", curl.length());
             assert!(curl.dot(direction).abs() < 2e-4, "{x}: {}", curl.dot(direction));

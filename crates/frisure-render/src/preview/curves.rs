@@ -168,9 +168,11 @@ fn count(strand: Strand<'_>, view: &Projection) -> usize {
         return 0;
     }
     let mut total = 1;
+    let mut before = slope(strand.points, 0);
     for i in 0..strand.points.len() - 1 {
-        let ends = [slope(strand.points, i), slope(strand.points, i + 1)];
-        total += pieces(strand.points[i], strand.points[i + 1], ends, view) as usize;
+        let after = slope(strand.points, i + 1);
+        total += pieces(strand.points[i], strand.points[i + 1], [before, after], view) as usize;
+        before = after;
     }
     total
 }
@@ -222,10 +224,12 @@ fn trace(
     put: &mut impl FnMut(f32, Vec3, Vec3),
 ) {
     let unit = |slope: Vec3| slope.try_normalize().unwrap_or(Vec3::Z);
-    put(0.0, points[0], unit(slope(points, 0)));
+    let mut before = slope(points, 0);
+    put(0.0, points[0], unit(before));
     for i in 0..points.len() - 1 {
         let (a, b) = (points[i], points[i + 1]);
-        let ends = [slope(points, i), slope(points, i + 1)];
+        let ends = [before, slope(points, i + 1)];
+        before = ends[1];
         let n = pieces(a, b, ends);
         let h = reach(a.distance(b), ends);
         for k in 1..=n {

@@ -105,12 +105,16 @@ impl DensityMap {
     fn add(&mut self, point: Vec3, value: f32) {
         let g = self.grid(point);
         let (base, f) = split(g);
-        for (du, wu) in [(0, 1.0 - f.x), (1, f.x)] {
-            for (dv, wv) in [(0, 1.0 - f.y), (1, f.y)] {
-                let i = self.index(base.x + du, base.y + dv, base.z);
+        // A column along v is next to this one, and one along u is a layer of them away.
+        let next = self.size.z as usize;
+        let layer = next * self.size.y as usize;
+        let first = self.index(base.x, base.y, base.z);
+        for (u, wu) in [(first, 1.0 - f.x), (first + layer, f.x)] {
+            for (i, wv) in [(u, 1.0 - f.y), (u + next, f.y)] {
                 let part = value * wu * wv;
-                self.met[i] += part * (1.0 - f.z);
-                self.met[i + 1] += part * f.z;
+                let nodes = &mut self.met[i..i + 2];
+                nodes[0] += part * (1.0 - f.z);
+                nodes[1] += part * f.z;
             }
         }
     }
