@@ -150,11 +150,11 @@ impl Pipelines {
             density: self::density(device, l, &density),
             head_depth: head_depth(device, l, &surface),
             shade: shade(device, l),
-            skin: [false, true].map(|shadows| skin(device, l, samples, shadows)),
+            skin: skin(device, l, samples),
             skin_depth: skin_depth(device, l, &surface),
             hair: hair(device, l),
             finish: finish(device, l),
-            compose: [false, true].map(|around| compose(device, l, around)),
+            compose: compose(device, l),
             lines: stroke("lines", CompareFunction::Less),
             lines_on_top: stroke("lines on top", CompareFunction::Always),
             show: show(device, l, output),
@@ -225,20 +225,23 @@ fn shade(device: &Device, l: &Layouts) -> RenderPipeline {
     .pipeline(device)
 }
 
-fn skin(device: &Device, l: &Layouts, samples: u32, shadows: bool) -> RenderPipeline {
+/// Without and with shadows: see the shader's constant.
+fn skin(device: &Device, l: &Layouts, samples: u32) -> [RenderPipeline; 2] {
     let own = include_str!("shaders/skin.wgsl");
     let shader = module(device, "skin", &[COMMON, LAYERS, SHADOWS, own]);
-    PipelineSpec {
-        fragment: Some("skin"),
-        groups: &[&l.picture, &l.shadows, &l.finish],
-        buffers: &[SKIN, ROOM, TINT],
-        targets: &[(LIGHT, None)],
-        depth: Some((CompareFunction::Less, true)),
-        samples,
-        constants: &[("SHADOWS", f64::from(u8::from(shadows)))],
-        ..plain("skin", &shader, "skin_vertex")
-    }
-    .pipeline(device)
+    [0.0, 1.0].map(|on| {
+        PipelineSpec {
+            fragment: Some("skin"),
+            groups: &[&l.picture, &l.shadows, &l.finish],
+            buffers: &[SKIN, ROOM, TINT],
+            targets: &[(LIGHT, None)],
+            depth: Some((CompareFunction::Less, true)),
+            samples,
+            constants: &[("SHADOWS", on)],
+            ..plain("skin", &shader, "skin_vertex")
+        }
+        .pipeline(device)
+    })
 }
 
 fn skin_depth(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline {
@@ -277,16 +280,19 @@ fn finish(device: &Device, l: &Layouts) -> RenderPipeline {
     .pipeline(device)
 }
 
-fn compose(device: &Device, l: &Layouts, around: bool) -> RenderPipeline {
+/// Without and with the environment: see the shader's constant.
+fn compose(device: &Device, l: &Layouts) -> [RenderPipeline; 2] {
     let shader = module(device, "compose", &[COMMON, include_str!("shaders/compose.wgsl")]);
-    PipelineSpec {
-        fragment: Some("compose"),
-        groups: &[&l.picture, &l.compose],
-        targets: &[(TextureFormat::Rgba8Unorm, None)],
-        constants: &[("AROUND", f64::from(u8::from(around)))],
-        ..plain("compose", &shader, "whole")
-    }
-    .pipeline(device)
+    [0.0, 1.0].map(|on| {
+        PipelineSpec {
+            fragment: Some("compose"),
+            groups: &[&l.picture, &l.compose],
+            targets: &[(TextureFormat::Rgba8Unorm, None)],
+            constants: &[("AROUND", on)],
+            ..plain("compose", &shader, "whole")
+        }
+        .pipeline(device)
+    })
 }
 
 fn stroke(
