@@ -104,7 +104,7 @@ pub fn material(
         place: None,
     };
     let normal = normal.filter(|_| look.texture > 0.0);
-    if tint.garment > 0.5 {
+    if is_garment(tint.garment) {
         let colour = (look.garment * cloth_shade(p, look.texture)).min(Vec3::ONE);
         let normal = normal.map(|normal| bent(normal, cloth_slope(p), look.texture));
         return Material { colour, gloss: 0.0, scatters: false, normal, ..skin };
@@ -119,6 +119,11 @@ pub fn material(
     let roughness = SKIN_ROUGHNESS + (0.2 - SKIN_ROUGHNESS) * lips;
     let normal = normal.map(|normal| bent(normal, skin_slope(p, lips), look.texture));
     Material { colour, roughness, gloss: look.gloss * (1.0 + 0.4 * tint.lips), normal, ..skin }
+}
+
+/// Whether a place is a garment, where that much of its tint is one ([`Tint::garment`]).
+pub(crate) fn is_garment(tint: f32) -> bool {
+    tint > 0.5
 }
 
 /// A unit normal on a surface that rises by `slope` (m/m, of which only the part along the surface counts).

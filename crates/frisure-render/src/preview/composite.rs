@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::area::{Area, TILE};
 use super::curves::{Curves, Vertex};
-use super::head::{Head, HeadPixel};
+use super::head::{Cover, Head};
 use super::projection::Projection;
 use super::shading::Shader;
 use super::tiles::TileGrid;
@@ -61,8 +61,8 @@ struct Pixel {
 }
 
 impl Pixel {
-    fn new(head: &HeadPixel) -> Self {
-        let (coverage, depth) = (head.coverage, head.depth);
+    /// A pixel of which the head covers a part at a depth.
+    fn new((coverage, depth): (f32, f32)) -> Self {
         Self { coverage, depth, on_head: Layer::CLEAR, beside: Layer::CLEAR }
     }
 
@@ -104,15 +104,14 @@ impl TilePainter<'_> {
     /// The pixels of a tile, in rows of [`TILE`].
     pub(super) fn paint(&self, grid: &TileGrid, tile: usize) -> Vec<[f32; 4]> {
         let area = grid.area(tile);
-        let heads = match self.head {
-            Some(head) if !grid.head(tile).is_empty() => {
-                head.cover(grid.head(tile), self.view, &area, self.samples)
-            }
-            _ => vec![HeadPixel::default(); TILE * TILE],
-        };
-        let mut pixels: Vec<Pixel> = heads.iter().map(Pixel::new).collect();
+        let faces = grid.head(tile);
+        let cover = self.head.filter(|_| !faces.is_empty());
+        let cover = cover.map(|head| head.cover(faces, self.view, &area, self.samples));
+        let bare = || vec![(0.0, 0.0); TILE * TILE];
+        let depths = cover.as_ref().map_or_else(bare, Cover::depths);
+        let mut pixels: Vec<Pixel> = depths.into_iter().map(Pixel::new).collect();
         self.lay_hair(grid.hair(tile), &area, &mut pixels);
-        self.resolve(&area, &heads, &pixels)
+        self.resolve(&area, cover.as_ref(), &pixels)
     }
 
     /// Lays the tile's hair over its pixels, nearest first.
@@ -218,17 +217,20 @@ impl TilePainter<'_> {
     }
 
     /// Turns layers into light.
-    fn resolve(&self, area: &Area, heads: &[HeadPixel], pixels: &[Pixel]) -> Vec<[f32; 4]> {
+    fn resolve(&self, area: &Area, cover: Option<&Cover<'_>>, pixels: &[Pixel]) -> Vec<[f32; 4]> {
         let mut out = vec![[0.0; 4]; TILE * TILE];
         for y in area.y0..area.y1 {
             for x in area.x0..area.x1 {
                 let i = (y - area.y0) * TILE + x - area.x0;
-                let (pixel, head) = (&pixels[i], &heads[i]);
+                let pixel = &pixels[i];
                 let (behind, alpha) = self.behind(x, y);
-                let free = 1.0 - head.coverage;
+                let free = 1.0 - pixel.coverage;
                 let mut light = free * pixel.beside.over(behind);
-                if head.coverage > 0.0 {
-                    light += head.coverage * pixel.on_head.over(self.shader.skin(head));
+                if let Some(cover) = cover.filter(|_| pixel.coverage > 0.0) {
+                    let seen = pixel.on_head.through > FINISHED;
+                    let skin = || self.shader.skin(&cover.pixel(i));
+                    let skin = if seen { skin() } else { Vec3::ZERO };
+                    light += pixel.coverage * pixel.on_head.over(skin);
                 }
                 let alpha = 1.0 - free * pixel.beside.through * (1.0 - alpha);
                 out[i] = [light.x, light.y, light.z, alpha];

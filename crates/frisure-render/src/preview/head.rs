@@ -25,10 +25,6 @@ pub(super) struct Head {
 /// The part of the head in a pixel, averaged over its samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeadPixel {
-    /// Covered part of the pixel, 0 to 1.
-    pub(super) coverage: f32,
-    /// Mean depth of the covered part (m).
-    pub(super) depth: f32,
     /// Mean position of the covered part (m).
     pub(super) position: Vec3,
     /// Mean normal towards the eye; not of unit length.
@@ -43,6 +39,22 @@ pub(super) struct HeadPixel {
     pub(super) deep: f32,
     /// Part that is an eye's wet surface.
     pub(super) wet: f32,
+}
+
+impl HeadPixel {
+    /// The mean of the sum of `count` samples.
+    fn mean(self, count: u32) -> Self {
+        let mean = 1.0 / count.max(1) as f32;
+        Self {
+            position: self.position * mean,
+            normal: self.normal,
+            environment: self.environment * mean,
+            colour: self.colour * mean,
+            gloss: self.gloss * mean,
+            deep: self.deep * mean,
+            wet: self.wet * mean,
+        }
+    }
 }
 
 impl Head {
@@ -76,12 +88,24 @@ impl Head {
         if let Some(Some(object)) = self.accessories.get(index as usize) {
             return complexion::accessory_material(object);
         }
-        let features = self.features.as_ref();
-        let tint = features.filter(|f| !f.tints.is_empty()).map_or(Tint::default(), |features| {
-            let [a, b, c] = corners.map(|v| features.tints[v]);
+        let tint = self.tints().map_or(Tint::default(), |tints| {
+            let [a, b, c] = corners.map(|v| tints[v]);
             a * weights.x + b * weights.y + c * weights.z
         });
-        complexion::material(features, tint, (position, None), &self.look)
+        complexion::material(self.features.as_ref(), tint, (position, None), &self.look)
+    }
+
+    /// The tint of each vertex, if there are tints.
+    fn tints(&self) -> Option<&[Tint]> {
+        self.features.as_ref().map(|features| &features.tints[..]).filter(|tints| !tints.is_empty())
+    }
+
+    /// Whether the head is dressed at the place of face `index` with these weights.
+    fn is_garment(&self, index: u32, weights: Vec3) -> bool {
+        self.tints().is_some_and(|tints| {
+            let [a, b, c] = self.triangles[index as usize].map(|v| tints[v as usize].garment);
+            complexion::is_garment(a * weights.x + b * weights.y + c * weights.z)
+        })
     }
 
     /// Sets the ambient irradiance / π at each vertex.
@@ -109,17 +133,16 @@ impl Head {
         self.triangles[index].map(|v| self.positions[v as usize])
     }
 
-    /// What each pixel of a tile (rows of [`TILE`]) sees of the faces named, with `samples` samples
-    /// along each side of a pixel.
-    pub(super) fn cover(
-        &self,
+    /// Which of the faces named each sample of a tile sees, with `samples` samples along each side of a pixel.
+    pub(super) fn cover<'a>(
+        &'a self,
         faces: &[u32],
-        view: &Projection,
+        view: &'a Projection,
         area: &Area,
         samples: usize,
-    ) -> Vec<HeadPixel> {
+    ) -> Cover<'a> {
         let side = TILE * samples;
-        let mut nearest = vec![(f32::INFINITY, u32::MAX, Vec3::ZERO); side * side];
+        let mut nearest = vec![Seen::NOTHING; side * side];
         let window = ((area.x1 - area.x0) * samples, (area.y1 - area.y0) * samples);
         let corner = Vec3::new(area.x0 as f32, area.y0 as f32, 0.0);
         let scale = Vec3::new(samples as f32, samples as f32, 1.0);
@@ -133,52 +156,132 @@ impl Head {
                 // 1/z is linear on the screen, and weights over z give those on the face (perspective-correct).
                 let depth = 1.0 / weights.dot(inverse);
                 let sample = &mut nearest[y * side + x];
-                if depth < sample.0 {
-                    *sample = (depth, face, weights * inverse * depth);
+                if depth < sample.depth {
+                    *sample = Seen { depth, face, weights: weights * inverse * depth };
                 }
             });
         }
-        let mut pixels = vec![HeadPixel::default(); TILE * TILE];
-        for (i, &(depth, face, weights)) in nearest.iter().enumerate() {
-            if face != u32::MAX {
-                let (x, y) = (i % side / samples, i / side / samples);
-                self.add(&mut pixels[y * TILE + x], face, depth, weights, view);
-            }
-        }
-        let part = 1.0 / (samples * samples) as f32;
-        for pixel in pixels.iter_mut().filter(|p| p.coverage > 0.0) {
-            let mean = 1.0 / pixel.coverage;
-            pixel.depth *= mean;
-            pixel.position *= mean;
-            pixel.environment *= mean;
-            pixel.colour *= mean;
-            pixel.gloss *= mean;
-            pixel.wet *= mean;
-            pixel.deep *= mean;
-            pixel.coverage *= part;
-        }
-        pixels
+        Cover { head: self, view, samples, nearest }
+    }
+}
+
+/// A place of the head that a sample sees.
+#[derive(Clone, Copy)]
+struct Seen {
+    /// Depth (m); infinite where the sample sees no head.
+    depth: f32,
+    face: u32,
+    /// Weights of the face's corners.
+    weights: Vec3,
+}
+
+impl Seen {
+    const NOTHING: Self = Self { depth: f32::INFINITY, face: u32::MAX, weights: Vec3::ZERO };
+}
+
+/// What the samples of a tile see of the head.
+pub(super) struct Cover<'a> {
+    head: &'a Head,
+    view: &'a Projection,
+    /// Samples along each side of a pixel.
+    samples: usize,
+    /// Row by row.
+    nearest: Vec<Seen>,
+}
+
+impl Cover<'_> {
+    /// Covered part (0 to 1) of each pixel (rows of [`TILE`]), and the mean depth of that part (m).
+    pub(super) fn depths(&self) -> Vec<(f32, f32)> {
+        let part = 1.0 / (self.samples * self.samples) as f32;
+        let mean = |pixel: usize| {
+            let (mut count, mut depth) = (0.0, 0.0);
+            self.visit(pixel, |_, seen| {
+                count += 1.0;
+                depth += seen.depth;
+            });
+            if count > 0.0 { (count * part, depth / count) } else { (0.0, 0.0) }
+        };
+        (0..TILE * TILE).map(mean).collect()
     }
 
-    /// Adds one sample to a pixel.
-    fn add(&self, pixel: &mut HeadPixel, face: u32, depth: f32, weights: Vec3, view: &Projection) {
-        let [a, b, c] = self.triangles[face as usize].map(|v| v as usize);
+    /// The head in a pixel of which it covers a part.
+    pub(super) fn pixel(&self, pixel: usize) -> HeadPixel {
+        // Spots of skin and threads of cloth are as large as a pixel of a portrait: the mean of every fourth sample, on a turned
+        // grid, is that of all.
+        if self.samples >= 4 && self.is_even(pixel) {
+            let (mut some, mut count) = (HeadPixel::default(), 0);
+            self.visit(pixel, |at, seen| {
+                if on_turned_grid(at) {
+                    count += 1;
+                    self.add(&mut some, seen);
+                }
+            });
+            // Eyes have finer parts.
+            if some.wet == 0.0 {
+                return some.mean(count);
+            }
+        }
+        let (mut all, mut count) = (HeadPixel::default(), 0);
+        self.visit(pixel, |_, seen| {
+            count += 1;
+            self.add(&mut all, seen);
+        });
+        all.mean(count)
+    }
+
+    /// Whether a pixel lies within one part of the head, with no edge in it.
+    fn is_even(&self, pixel: usize) -> bool {
+        /// How much deeper than wide a pixel may be: more than that there is an edge in it, or nearly. Chosen.
+        const STEEPEST: f32 = 4.0;
+        let (mut count, mut dressed) = (0, 0);
+        let (mut near, mut far) = (f32::INFINITY, 0.0_f32);
+        self.visit(pixel, |_, seen| {
+            count += 1;
+            dressed += usize::from(self.head.is_garment(seen.face, seen.weights));
+            (near, far) = (near.min(seen.depth), far.max(seen.depth));
+        });
+        count == self.samples * self.samples
+            && (dressed == 0 || dressed == count)
+            && (far - near) * self.view.focal < STEEPEST * near
+    }
+
+    /// Calls `visit` with each sample of a pixel that sees the head, and its column and row in the pixel.
+    fn visit(&self, pixel: usize, mut visit: impl FnMut((usize, usize), &Seen)) {
+        let (n, side) = (self.samples, TILE * self.samples);
+        for y in 0..n {
+            let first = (pixel / TILE * n + y) * side + pixel % TILE * n;
+            for (x, seen) in self.nearest[first..first + n].iter().enumerate() {
+                if seen.face != u32::MAX {
+                    visit((x, y), seen);
+                }
+            }
+        }
+    }
+
+    /// Adds what one sample sees.
+    fn add(&self, pixel: &mut HeadPixel, seen: &Seen) {
+        let (head, weights) = (self.head, seen.weights);
+        let [a, b, c] = head.triangles[seen.face as usize].map(|v| v as usize);
         let mix = |of: &[Vec3]| of[a] * weights.x + of[b] * weights.y + of[c] * weights.z;
-        let (position, normal) = (mix(&self.positions), mix(&self.normals));
-        let material = self.material(face, [a, b, c], weights, position);
+        let (position, normal) = (mix(&head.positions), mix(&head.normals));
+        let material = head.material(seen.face, [a, b, c], weights, position);
         let normal = material.normal.unwrap_or(normal);
         pixel.colour += material.colour;
         pixel.gloss += material.gloss;
         pixel.deep += f32::from(u8::from(material.scatters));
         pixel.wet += f32::from(u8::from(material.normal.is_some()));
         // Seen from inside (an open neck), a face is lit on the side that is seen.
-        let towards = normal.dot(view.eye - position) >= 0.0;
-        pixel.coverage += 1.0;
-        pixel.depth += depth;
+        let towards = normal.dot(self.view.eye - position) >= 0.0;
         pixel.position += position;
         pixel.normal += if towards { normal } else { -normal };
-        pixel.environment += mix(&self.environment);
+        pixel.environment += mix(&head.environment);
     }
+}
+
+/// Whether a sample, in this column and row of its pixel, is one of those that stand for all: one of four in each row, in another column
+/// in each of four rows.
+fn on_turned_grid((x, y): (usize, usize)) -> bool {
+    (x + 2 * y + y / 2) % 4 == 1
 }
 
 /// What each face is made of that is no head; empty without such faces.

@@ -1,5 +1,7 @@
 //! Which places the head hides from a lamp: a depth map seen from the lamp.
 
+use std::sync::LazyLock;
+
 use glam::{Vec2, Vec3};
 
 use super::geometry::frame;
@@ -29,8 +31,15 @@ const DISC: [(f32, f32); 13] = [
 /// Places on a lamp from which a soft shadow is the mean. Chosen: steps of a thirtieth are hardly seen.
 const PLACES: usize = 30;
 
-/// The golden angle (rad).
-const GOLDEN: f32 = 2.399_963;
+/// These places on the unit disc: a spiral of even steps of area, turned by the golden angle each.
+static SPIRAL: LazyLock<[Vec2; PLACES]> = LazyLock::new(|| {
+    /// The golden angle (rad).
+    const GOLDEN: f32 = 2.399_963;
+    std::array::from_fn(|i| {
+        let radius = ((i as f32 + 0.5) / PLACES as f32).sqrt();
+        radius * Vec2::from_angle(GOLDEN * i as f32)
+    })
+});
 
 /// How soft the head's shadow on itself is.
 #[derive(Clone, Copy, Debug)]
@@ -99,42 +108,56 @@ impl ShadowMap {
         lit
     }
 
-    /// Mean of [`Self::lit`] over a lamp as wide as a soft box: its shadows blur over `radius` (m), and more the farther
-    /// away what casts them is, by `spread` of the distance and `widest` (m) at most.
+    /// Mean over a lamp as wide as a soft box of the part that is seen from `point`, moved towards it by `bias` (m): shadows
+    /// blur over `radius` (m), and more the farther away what casts them is, by `spread` of the distance and `widest` (m) at most.
     ///
     /// The distance is the mean one of what lies before the point within the widest blur (percentage-closer soft shadows,
     /// Fernando 2005).
     pub(super) fn softly_lit(&self, point: Vec3, bias: f32, blur: Penumbra) -> f32 {
-        let [u, v, _] = self.axes;
-        let place = |radius: f32, (x, y): (f32, f32)| point + radius * (x * u + y * v);
+        let p = self.project(point);
+        // In the map, the lamp's disc around the point is a disc at one depth.
+        let (middle, nearer) = (p.truncate(), p.z - bias);
         let (mut sum, mut count) = (0.0, 0.0);
-        for at in DISC {
-            if let Some(distance) = self.blocker(place(blur.widest, at), bias) {
-                sum += distance;
+        for (x, y) in DISC {
+            let at = middle + blur.widest / self.texel * Vec2::new(x, y);
+            if let Some(depth) = self.blocker(at, nearer) {
+                sum += p.z - depth;
                 count += 1.0;
             }
         }
         if count == 0.0 {
             return 1.0;
         }
-        let radius = (blur.spread * sum / count).clamp(blur.narrowest, blur.widest);
-        // A spiral of even steps of area, turned by the golden angle each.
-        let sum: f32 = (0..PLACES)
-            .map(|i| {
-                let (sin, cos) = (GOLDEN * i as f32).sin_cos();
-                let r = ((i as f32 + 0.5) / PLACES as f32).sqrt();
-                self.lit(place(radius, (r * cos, r * sin)), bias)
-            })
-            .sum();
-        sum / PLACES as f32
+        let radius = (blur.spread * sum / count).clamp(blur.narrowest, blur.widest) / self.texel;
+        let lit = SPIRAL.iter().map(|place| self.lit_between(middle + radius * place, nearer));
+        lit.sum::<f32>() / PLACES as f32
     }
 
-    /// Distance (m) between a point and what lies before it on the way to the lamp.
-    fn blocker(&self, point: Vec3, bias: f32) -> Option<f32> {
-        let p = self.project(point);
-        let inside = p.x >= 0.0 && p.y >= 0.0 && p.x.max(p.y) < SIZE as f32;
-        let depth = inside.then(|| self.depth[p.y as usize * SIZE + p.x as usize])?;
-        (depth < p.z - bias).then_some(p.z - depth)
+    /// Depth (m) of the head at a place of the map, if it is less than `nearer`.
+    fn blocker(&self, at: Vec2, nearer: f32) -> Option<f32> {
+        let inside = at.min_element() >= 0.0 && at.max_element() < SIZE as f32;
+        let depth = inside.then(|| self.depth[at.y as usize * SIZE + at.x as usize])?;
+        (depth < nearer).then_some(depth)
+    }
+
+    /// Part (0 to 1) of the four texels around a place of the map that hide nothing at depth `nearer` (m): enough where many
+    /// places are averaged.
+    fn lit_between(&self, at: Vec2, nearer: f32) -> f32 {
+        let g = at - Vec2::splat(0.5);
+        if !(g.min_element() >= 0.0 && g.max_element() < (SIZE - 1) as f32) {
+            return 1.0;
+        }
+        let (x, y) = (g.x as usize, g.y as usize);
+        let f = g - Vec2::new(x as f32, y as f32);
+        let row = |y: usize| {
+            let [a, b] = [0, 1].map(|i| {
+                let open = nearer <= self.depth[y * SIZE + x + i];
+                f32::from(u8::from(open))
+            });
+            a + (b - a) * f.x
+        };
+        let (above, below) = (row(y), row(y + 1));
+        above + (below - above) * f.y
     }
 
     /// Texel coordinates and depth (m).
