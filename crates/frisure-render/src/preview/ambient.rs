@@ -13,6 +13,7 @@ use super::curves::{Curves, NOWHERE, Vertex};
 use super::directions::{DIRECTION_COUNT, DIRECTIONS, direction};
 use super::geometry::split;
 use super::head::Head;
+use super::lumps::Lumps;
 
 /// Part of the environment's light that comes to skin through skin where nothing else does, as between the lips: red goes farthest.
 /// Chosen by eye beside the tracer, whose light goes beneath the skin.
@@ -73,7 +74,8 @@ impl AmbientLight {
             ..NOWHERE
         };
         let curves = Curves { vertices: hair.map(vertex).collect() };
-        Self::around(&curves, head.map(Head::new).as_ref(), environment, extinction, cells)
+        let hair = Lumps::new(&curves, MIN_CELL, cells);
+        Self::around(&hair, head.map(Head::new).as_ref(), environment, extinction, cells)
     }
 
     /// Lowest corner of the grid (m), distance between its nodes (m), and nodes along each side.
@@ -88,19 +90,17 @@ impl AmbientLight {
         &self.mean
     }
 
-    /// As [`Self::new`], around `curves`.
+    /// As [`Self::new`], around lumps that are not longer than about a cell.
     pub(super) fn around(
-        curves: &Curves,
+        hair: &Lumps,
         head: Option<&Head>,
         environment: [Vec3; DIRECTION_COUNT],
         extinction: Vec3,
         cells: f32,
     ) -> Self {
-        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let hair = curves.vertices.iter().map(|v| v.position);
         let skin = head.into_iter().flat_map(|h| h.positions().iter().copied());
         let (mut low, mut high) =
-            hair.chain(skin).fold(empty, |(low, high), p| (low.min(p), high.max(p)));
+            skin.fold(hair.bounds, |(low, high), p| (low.min(p), high.max(p)));
         if !low.is_finite() || !high.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
@@ -109,7 +109,7 @@ impl AmbientLight {
         let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
         let mut ambient =
             Self { low, cell, size, met: Vec::new(), mean: Vec::new(), environment, extinction };
-        let hair = ambient.hair_density(curves);
+        let hair = ambient.hair_density(hair);
         let shell = ambient.shell(head);
         ambient.met = DIRECTIONS
             .par_iter()
@@ -186,14 +186,14 @@ impl AmbientLight {
     }
 
     /// Projected area of hair per volume at each node (1/m), mean over directions.
-    fn hair_density(&self, curves: &Curves) -> Vec<f32> {
+    fn hair_density(&self, hair: &Lumps) -> Vec<f32> {
         let mut density = vec![0.0; (self.size.x * self.size.y * self.size.z) as usize];
         // A cylinder of width w and length l shows π/4 w l on average.
         let scale = std::f32::consts::FRAC_PI_4 / self.cell.powi(3);
-        let area = |d: Vec3, width: f32| width * d.length() * scale;
-        curves.lumps(self.cell, area, |point, value| {
-            self.visit_nodes(point, |i, weight| density[i] += weight * value);
-        });
+        for lump in hair.iter() {
+            let value = lump.area.length() * scale;
+            self.visit_nodes(lump.position, |i, weight| density[i] += weight * value);
+        }
         density
     }
 
@@ -260,6 +260,10 @@ mod tests {
     use frisure_look::Camera;
     use frisure_strands::Strands;
 
+    fn hair(curves: &Curves) -> Lumps {
+        Lumps::new(curves, MIN_CELL, MAX_CELLS)
+    }
+
     fn environment(radiance: f32) -> [Vec3; DIRECTION_COUNT] {
         [Vec3::splat(radiance); DIRECTION_COUNT]
     }
@@ -267,7 +271,8 @@ mod tests {
     #[test]
     fn open_air_has_all_the_room() {
         let curves = Curves::new(&Strands::new(), &Projection::new(&Camera::default(), 8, 8), 1.0);
-        let ambient = AmbientLight::around(&curves, None, environment(2.0), Vec3::ONE, MAX_CELLS);
+        let ambient =
+            AmbientLight::around(&hair(&curves), None, environment(2.0), Vec3::ONE, MAX_CELLS);
         assert!((ambient.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
         let on = ambient.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
         assert!((on - Vec3::splat(2.0)).length() < 1e-5);
@@ -283,7 +288,8 @@ mod tests {
             }
         }
         let curves = Curves::new(&strands, &Projection::new(&Camera::default(), 64, 64), 1.0);
-        let ambient = AmbientLight::around(&curves, None, environment(1.0), Vec3::ONE, MAX_CELLS);
+        let ambient =
+            AmbientLight::around(&hair(&curves), None, environment(1.0), Vec3::ONE, MAX_CELLS);
         let (middle, edge) = (ambient.mean(Vec3::ZERO).x, ambient.mean(Vec3::Z * 0.038).x);
         assert!(middle < 0.5 * edge && edge < 0.95, "{middle} {edge}");
     }

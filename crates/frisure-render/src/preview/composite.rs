@@ -8,11 +8,12 @@
 use glam::Vec3;
 
 use super::area::{Area, TILE};
+use super::cache::RadianceCache;
 use super::curves::{Curves, Vertex};
 use super::head::{Cover, Head};
 use super::projection::Projection;
 use super::shading::Shader;
-use super::tiles::TileGrid;
+use super::tiles::{HairPiece, TileGrid};
 use frisure_look::{Background, EnvironmentLight};
 
 /// Least softening (pixels): a line that is nearly level would show where it changes row. Chosen by eye.
@@ -26,6 +27,8 @@ pub(super) struct TilePainter<'a> {
     pub(super) curves: &'a Curves,
     pub(super) head: Option<&'a Head>,
     pub(super) shader: &'a Shader,
+    /// What the shader has computed of the hair.
+    pub(super) radiances: RadianceCache,
     pub(super) background: Background,
     pub(super) environment: &'a EnvironmentLight,
     pub(super) samples: usize,
@@ -115,29 +118,22 @@ impl TilePainter<'_> {
     }
 
     /// Lays the tile's hair over its pixels, nearest first.
-    fn lay_hair(&self, hair: &[u32], area: &Area, pixels: &mut [Pixel]) {
+    fn lay_hair(&self, hair: &[HairPiece], area: &Area, pixels: &mut [Pixel]) {
         // By depth, then by index: the order does not depend on threads.
-        let mut order: Vec<(u32, u32)> = hair.iter().map(|&i| (self.depth_key(i), i)).collect();
+        let mut order = hair.to_vec();
         order.sort_unstable();
-        for (n, &(key, index)) in order.iter().enumerate() {
+        for (n, &[key, index]) in order.iter().enumerate() {
             // Every 256 pieces, whether any pixel still lets light through. Chosen.
             if n % 256 == 255 && !any_open(pixels, area, f32::from_bits(key)) {
                 return;
             }
-            if let Some((a, b)) = self.curves.piece(index as usize) {
-                self.lay_piece(a, b, area, pixels);
-            }
+            self.lay_piece(index as usize, area, pixels);
         }
     }
 
-    /// Bits of a piece's mean depth, which sort as the depth does since it is positive.
-    fn depth_key(&self, index: u32) -> u32 {
-        let [a, b] = [0, 1].map(|k| self.curves.vertices[index as usize + k].position);
-        (a.midpoint(b) - self.view.eye).dot(self.view.forward).to_bits()
-    }
-
     /// Lays one piece over the pixels.
-    fn lay_piece(&self, a: &Vertex, b: &Vertex, area: &Area, pixels: &mut [Pixel]) {
+    fn lay_piece(&self, index: usize, area: &Area, pixels: &mut [Pixel]) {
+        let Some((a, b)) = self.curves.piece(index) else { return };
         let Some(line) = self.line(a, b) else { return };
         let (low, high, side_low, side_high) = if line.steep {
             (area.y0, area.y1, area.x0, area.x1)
@@ -171,16 +167,17 @@ impl TilePainter<'_> {
                 let offset = row as f32 + 0.5 - centre;
                 let alpha = ribbon(offset, line.half, rise);
                 if alpha > 1e-4 {
-                    let (from, to) = *ends.get_or_insert_with(|| self.shade(a, b, &line));
+                    let (from, to) = *ends.get_or_insert_with(|| self.shade(index, &line));
                     pixel.add(from.lerp(to, x), alpha.min(1.0), depth);
                 }
             }
         }
     }
 
-    /// Colours at the start and the end of a line.
-    fn shade(&self, a: &Vertex, b: &Vertex, line: &Line) -> (Vec3, Vec3) {
-        let (a, b) = (self.shader.hair(a), self.shader.hair(b));
+    /// Colours at the start and the end of the line of piece `index`.
+    fn shade(&self, index: usize, line: &Line) -> (Vec3, Vec3) {
+        let at = |i: usize| self.radiances.get(i, || self.shader.hair(&self.curves.vertices[i]));
+        let (a, b) = (at(index), at(index + 1));
         if line.reversed { (b, a) } else { (a, b) }
     }
 

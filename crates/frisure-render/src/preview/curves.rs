@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use super::projection::{NEAR, Projection};
 
 /// Greatest distance between a drawn chord and its curve (pixels); this and the next three are chosen by eye.
-const FLATNESS: f32 = 0.15;
+const FLATNESS: f32 = 0.25;
 /// Greatest turn within a piece (rad): more would make highlights jump.
-const MAX_TURN: f32 = 0.2;
+const MAX_TURN: f32 = 0.3;
 /// Greatest length of a piece on the screen (pixels): it is sorted by depth as a whole.
 const MAX_PIXELS: f32 = 16.0;
-/// Greatest length of a piece (m): the density maps take it as a point.
+/// Greatest length of a piece (m).
 const MAX_LENGTH: f32 = 0.006;
 /// Most pieces for one segment of the input: a guard on time and memory.
 const MAX_PIECES: u32 = 64;
@@ -58,7 +58,8 @@ impl Curves {
             .map(|c| range(c).map(|i| count(strands.strand(i), view)).sum())
             .collect();
 
-        let mut vertices = vec![NOWHERE; counts.iter().sum()];
+        // By all threads: half of the time goes into getting the memory.
+        let mut vertices: Vec<_> = rayon::iter::repeat_n(NOWHERE, counts.iter().sum()).collect();
         let mut slices = Vec::with_capacity(chunks);
         let mut rest = vertices.as_mut_slice();
         for &n in &counts {
@@ -89,60 +90,6 @@ impl Curves {
     pub(super) fn piece(&self, index: usize) -> Option<(&Vertex, &Vertex)> {
         let (a, b) = (&self.vertices[index], self.vertices.get(index + 1)?);
         (a.strand == b.strand).then_some((a, b))
-    }
-
-    /// Visits all hair as points about `spacing` (m) apart along each strand, with what `measure`
-    /// says (of a piece's vector from end to end and its mean width, m) of the hair that each stands
-    /// for: what a grid with cells of that size needs to know.
-    pub(super) fn lumps(
-        &self,
-        spacing: f32,
-        measure: impl Fn(Vec3, f32) -> f32,
-        mut visit: impl FnMut(Vec3, f32),
-    ) {
-        let mut held = Lump::default();
-        for i in 0..self.vertices.len() {
-            let Some((a, b)) = self.piece(i) else {
-                held.release(&mut visit);
-                continue;
-            };
-            let d = b.position - a.position;
-            let (length, amount) = (d.length(), measure(d, a.half_width + b.half_width));
-            // The cast saturates.
-            let parts = 1 + (length / spacing) as u16;
-            let part = 1.0 / f32::from(parts);
-            for k in 0..parts {
-                let x = (f32::from(k) + 0.5) * part;
-                held.add(a.position + x * d, amount * part, length * part);
-                if held.length > 0.6 * spacing {
-                    held.release(&mut visit);
-                }
-            }
-        }
-    }
-}
-
-/// Several points of hair as one.
-#[derive(Default)]
-struct Lump {
-    amount: f32,
-    moment: Vec3,
-    length: f32,
-}
-
-impl Lump {
-    fn add(&mut self, position: Vec3, amount: f32, length: f32) {
-        self.amount += amount;
-        self.moment += amount * position;
-        self.length += length;
-    }
-
-    /// Hands on what is held, at its centre, and holds nothing.
-    fn release(&mut self, visit: &mut impl FnMut(Vec3, f32)) {
-        if self.amount > 0.0 {
-            visit(self.moment / self.amount, self.amount);
-        }
-        *self = Self::default();
     }
 }
 

@@ -8,13 +8,13 @@
 
 use glam::{UVec3, Vec3};
 
-use super::curves::Curves;
 use super::geometry::{frame, split};
+use super::lumps::Lumps;
 
 /// Finest cell (m): a lock is several cells wide, and a cell has several hairs in it. Chosen by trial.
-const MIN_CELL: f32 = 2.2e-3;
+pub(super) const MIN_CELL: f32 = 2.2e-3;
 /// Most cells along a side; chosen by trial for speed.
-const MAX_CELLS: f32 = 168.0;
+pub(super) const MAX_CELLS: f32 = 168.0;
 /// Distance towards the lamp at which a point looks up its shadow, in cells: the filters spread a hair over four
 /// cells, and would shade itself. Chosen by trial.
 const LIFT: f32 = 1.3;
@@ -30,15 +30,26 @@ pub(super) struct DensityMap {
     met: Vec<f32>,
 }
 
+/// A place among the columns of a grid, along each of which the light runs.
+struct Column {
+    /// Indices of the first nodes of the four columns around it.
+    first: [usize; 4],
+    /// Where it lies between them.
+    f: Vec3,
+    /// Cells from the first node on, and the most.
+    depth: f32,
+    deepest: f32,
+}
+
 impl DensityMap {
     /// The map for a lamp in unit direction `to_light`; `None` if there is no hair.
-    pub(super) fn new(curves: &Curves, to_light: Vec3) -> Option<Self> {
+    pub(super) fn new(hair: &Lumps, to_light: Vec3) -> Option<Self> {
         let (u, v) = frame(-to_light);
         let axes = [u, v, -to_light];
         let local = |p: Vec3| Vec3::new(p.dot(u), p.dot(v), -p.dot(to_light));
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let (low, high) = curves.vertices.iter().fold(empty, |(low, high), vertex| {
-            let p = local(vertex.position);
+        let (low, high) = hair.iter().fold(empty, |(low, high), lump| {
+            let p = local(lump.position);
             (low.min(p), high.max(p))
         });
         if !low.is_finite() || !high.is_finite() {
@@ -50,7 +61,7 @@ impl DensityMap {
         let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(4);
         let n = size.x as usize * size.y as usize * size.z as usize;
         let mut map = Self { axes, low, cell, size, met: vec![0.0; n] };
-        map.spread(curves, to_light);
+        map.spread(hair, to_light);
         map.smooth();
         map.sum_columns();
         Some(map)
@@ -58,28 +69,40 @@ impl DensityMap {
 
     /// Mean number of hairs between `point` and the lamp.
     pub(super) fn hairs_before(&self, point: Vec3) -> f32 {
-        self.hairs_up_to(point, LIFT)
+        let column = self.column(self.grid(point));
+        self.hairs_up_to(&column, LIFT)
     }
 
-    /// Mean number of hairs in the cell around `point`, along the light.
-    pub(super) fn hairs_around(&self, point: Vec3) -> f32 {
-        self.hairs_up_to(point, -0.5) - self.hairs_up_to(point, 0.5)
+    /// The same, and what gives the mean number of hairs in the cell around `point`, along the light.
+    pub(super) fn hairs_around(&self, point: Vec3) -> (f32, impl Fn() -> f32) {
+        let column = self.column(self.grid(point));
+        let before = self.hairs_up_to(&column, LIFT);
+        let around = move || self.hairs_up_to(&column, -0.5) - self.hairs_up_to(&column, 0.5);
+        (before, around)
     }
 
-    /// Mean number of hairs between the lamp and the place `lift` cells nearer to it than `point`.
-    fn hairs_up_to(&self, point: Vec3, lift: f32) -> f32 {
-        let mut g = self.grid(point);
-        g.z -= lift;
+    /// Where a place on the grid lies among the columns.
+    fn column(&self, place: Vec3) -> Column {
         let top = self.size.as_vec3() - Vec3::splat(1.001);
-        let g = g.clamp(Vec3::ZERO, top);
-        let (base, f) = split(g);
-        let column = |du: u32, dv: u32| {
-            let i = self.index(base.x + du, base.y + dv, base.z);
-            self.met[i] + (self.met[i + 1] - self.met[i]) * f.z
-        };
-        let near = column(0, 0) * (1.0 - f.x) + column(1, 0) * f.x;
-        let far = column(0, 1) * (1.0 - f.x) + column(1, 1) * f.x;
-        near * (1.0 - f.y) + far * f.y
+        let across = place.clamp(Vec3::ZERO, top).with_z(0.0);
+        let (base, f) = split(across);
+        let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        let first = corners.map(|(du, dv)| self.index(base.x + du, base.y + dv, 0));
+        Column { first, f, depth: place.z, deepest: top.z }
+    }
+
+    /// Mean number of hairs between the lamp and the place `lift` cells nearer to it than that of the column.
+    fn hairs_up_to(&self, column: &Column, lift: f32) -> f32 {
+        let depth = (column.depth - lift).clamp(0.0, column.deepest);
+        let base = depth as usize;
+        let part = depth - base as f32;
+        let [a, b, c, d] = column.first.map(|first| {
+            let i = first + base;
+            self.met[i] + (self.met[i + 1] - self.met[i]) * part
+        });
+        let near = a * (1.0 - column.f.x) + b * column.f.x;
+        let far = c * (1.0 - column.f.x) + d * column.f.x;
+        near * (1.0 - column.f.y) + far * column.f.y
     }
 
     /// Position in cells from the low corner.
@@ -93,12 +116,13 @@ impl DensityMap {
     }
 
     /// Adds the shadow of all hair, as area per area of a cell, to the eight nodes around.
-    fn spread(&mut self, curves: &Curves, to_light: Vec3) {
+    fn spread(&mut self, hair: &Lumps, to_light: Vec3) {
         let per_cell = 1.0 / (self.cell * self.cell);
-        // The shadow of a piece on a plane across the light: width times the length of its part across it.
-        let shadow =
-            |d: Vec3, width: f32| width * (d - to_light * d.dot(to_light)).length() * per_cell;
-        curves.lumps(self.cell, shadow, |point, value| self.add(point, value));
+        for lump in hair.iter() {
+            // The shadow of hair on a plane across the light: width times the length of its part across it.
+            let across = lump.area - to_light * lump.area.dot(to_light);
+            self.add(lump.position, across.length() * per_cell);
+        }
     }
 
     /// Shares a value between the eight nodes around a point.
@@ -158,6 +182,7 @@ impl DensityMap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::preview::curves::Curves;
     use crate::preview::projection::Projection;
     use frisure_strands::Strands;
 
@@ -171,7 +196,8 @@ mod tests {
         }
         let view = Projection::new(&frisure_look::Camera::default(), 256, 256);
         let curves = Curves::new(&strands, &view, 1.0);
-        let map = DensityMap::new(&curves, Vec3::Z).unwrap();
+        let hair = Lumps::new(&curves, MIN_CELL, MAX_CELLS);
+        let map = DensityMap::new(&hair, Vec3::Z).unwrap();
         let at = |z: f32| map.hairs_before(Vec3::new(0.05, 0.05, z));
         assert!(at(0.02).abs() < 1e-6, "lit side: {}", at(0.02));
         assert!((at(-0.02) - 0.1).abs() < 0.01, "behind: {}", at(-0.02));
@@ -182,6 +208,8 @@ mod tests {
     #[test]
     fn no_hair_has_no_map() {
         let view = Projection::new(&frisure_look::Camera::default(), 8, 8);
-        assert!(DensityMap::new(&Curves::new(&Strands::new(), &view, 1.0), Vec3::Z).is_none());
+        let curves = Curves::new(&Strands::new(), &view, 1.0);
+        let hair = Lumps::new(&curves, MIN_CELL, MAX_CELLS);
+        assert!(DensityMap::new(&hair, Vec3::Z).is_none());
     }
 }

@@ -14,6 +14,7 @@
 
 mod ambient;
 mod area;
+mod cache;
 mod composite;
 pub mod constants;
 mod curves;
@@ -22,6 +23,7 @@ mod directional;
 mod directions;
 mod geometry;
 mod head;
+mod lumps;
 mod material;
 mod projection;
 mod raster;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::area::TILE;
+use super::cache::RadianceCache;
 use super::composite::TilePainter;
 use super::curves::Curves;
 use super::head::Head;
@@ -109,6 +110,7 @@ pub fn render(
         curves: &curves,
         head: head.as_ref(),
         shader: &shader,
+        radiances: RadianceCache::new(curves.vertices.len()),
         background: scene.look.background,
         environment: &scene.lights.environment,
         samples: options.samples.clamp(1, 8),

@@ -11,10 +11,11 @@ use super::constants::{
     WET_RETURNED, WET_WIDTH, WRAP, seeping_reach,
 };
 use super::curves::{Curves, Vertex};
-use super::density::DensityMap;
+use super::density::{self, DensityMap};
 use super::directional::DirectionalLights;
 use super::geometry::frame;
 use super::head::{Head, HeadPixel};
+use super::lumps::Lumps;
 use super::material::{Materials, glitter};
 use super::shadow::{Penumbra, ShadowMap};
 use crate::scene::{Scene, head_centre};
@@ -65,18 +66,19 @@ impl Shader {
         let place = head_centre(scene.strands, scene.surface);
         let DirectionalLights { lamps: lit, environment } =
             DirectionalLights::new(&scene.lights, place);
+        let lumps = Lumps::new(curves, density::MIN_CELL, density::MAX_CELLS);
         let lamps = || -> Vec<Lamp> {
             lit.par_iter()
                 .map(|&(to_light, irradiance)| Lamp {
                     to_light,
                     irradiance,
-                    hair: DensityMap::new(curves, to_light),
+                    hair: DensityMap::new(&lumps, to_light),
                     head: shared.map(|head| ShadowMap::new(head, to_light)),
                 })
                 .collect()
         };
         let ambient =
-            || AmbientLight::around(curves, shared, environment, extinction, ambient::MAX_CELLS);
+            || AmbientLight::around(&lumps, shared, environment, extinction, ambient::MAX_CELLS);
         let (lamps, ambient) = rayon::join(lamps, ambient);
         if let Some(head) = head {
             head.set_ambient(|point, normal| ambient.on_surface(point, normal));
@@ -117,7 +119,8 @@ impl Shader {
         let environment = self.ambient.mean(vertex.position);
         let mut radiance = environment * (diffuse + ENVIRONMENT_GLOSS * reflected + returned);
         for lamp in &self.lamps {
-            let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
+            let hair = lamp.hair.as_ref().map(|map| map.hairs_around(vertex.position));
+            let hairs = hair.as_ref().map_or(0.0, |(before, _)| *before);
             // e^(−7.6) of the light of the smallest extinction: no colour of it is left.
             if hairs * self.extinction.min_element() > DARK {
                 continue;
@@ -138,7 +141,7 @@ impl Shader {
             let direct = lobe.r * reflected + lobe.trt * returned;
             let through = lobe.tt * material.transmitted;
             // Within its cell, hair that is seen stands partly in the shadow of other hair that is.
-            let around = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_around(vertex.position));
+            let around = hair.map_or(0.0, |(_, around)| around());
             let open = 1.0 - OVERLAP * (1.0 - (-around).exp());
             radiance += head
                 * lamp.irradiance

@@ -19,19 +19,22 @@ pub(super) struct TileGrid {
     rows: usize,
     width: usize,
     height: usize,
-    hair: Lists,
-    head: Lists,
+    hair: Lists<HairPiece>,
+    head: Lists<u32>,
 }
+
+/// A piece of hair in a tile: bits of its mean depth, which sort as the depth does since it is positive, and the index of its first vertex.
+pub(super) type HairPiece = [u32; 2];
 
 /// One list per tile, stored flat.
-struct Lists {
+struct Lists<T> {
     offsets: Vec<usize>,
-    items: Vec<u32>,
+    items: Vec<T>,
 }
 
-impl Lists {
+impl<T: Copy + Default> Lists<T> {
     /// Sorts (tile, item) pairs into lists; each keeps the order of the pairs.
-    fn new(tiles: usize, pairs: &[Vec<(u32, u32)>]) -> Self {
+    fn new(tiles: usize, pairs: &[Vec<(u32, T)>]) -> Self {
         let mut offsets = vec![0; tiles + 1];
         for &(tile, _) in pairs.iter().flatten() {
             offsets[tile as usize + 1] += 1;
@@ -40,7 +43,7 @@ impl Lists {
             offsets[i + 1] += offsets[i];
         }
         let mut next = offsets.clone();
-        let mut items = vec![0; offsets[tiles]];
+        let mut items = vec![T::default(); offsets[tiles]];
         for &(tile, item) in pairs.iter().flatten() {
             items[next[tile as usize]] = item;
             next[tile as usize] += 1;
@@ -48,7 +51,7 @@ impl Lists {
         Self { offsets, items }
     }
 
-    fn of(&self, tile: usize) -> &[u32] {
+    fn of(&self, tile: usize) -> &[T] {
         &self.items[self.offsets[tile]..self.offsets[tile + 1]]
     }
 }
@@ -56,16 +59,9 @@ impl Lists {
 impl TileGrid {
     pub(super) fn new(view: &Projection, curves: &Curves, head: Option<&Head>) -> Self {
         let (columns, rows) = (view.width.div_ceil(TILE), view.height.div_ceil(TILE));
-        let none = Lists { offsets: vec![0; columns * rows + 1], items: Vec::new() };
         let (width, height) = (view.width, view.height);
-        let mut grid = Self {
-            columns,
-            rows,
-            width,
-            height,
-            hair: none,
-            head: Lists::new(columns * rows, &[]),
-        };
+        let (hair, none) = (Lists::new(columns * rows, &[]), Lists::new(columns * rows, &[]));
+        let mut grid = Self { columns, rows, width, height, hair, head: none };
         let chunks = curves.vertices.len().div_ceil(CHUNK);
         let pairs: Vec<_> = (0..chunks)
             .into_par_iter()
@@ -90,7 +86,7 @@ impl TileGrid {
     }
 
     /// Pieces of hair that may touch a tile.
-    pub(super) fn hair(&self, tile: usize) -> &[u32] {
+    pub(super) fn hair(&self, tile: usize) -> &[HairPiece] {
         self.hair.of(tile)
     }
 
@@ -104,7 +100,7 @@ impl TileGrid {
         view: &Projection,
         curves: &Curves,
         range: std::ops::Range<usize>,
-    ) -> Vec<(u32, u32)> {
+    ) -> Vec<(u32, HairPiece)> {
         let mut pairs = Vec::new();
         for i in range.start..range.end.min(curves.vertices.len()) {
             let Some((a, b)) = curves.piece(i) else { continue };
@@ -115,7 +111,8 @@ impl TileGrid {
             }
             let reach = REACH + 1.5 * a.half_width.max(b.half_width) * view.focal / depth;
             let (low, high) = (p.min(q) - reach, p.max(q) + reach);
-            self.touched([low.x, low.y, high.x, high.y], |tile| pairs.push((tile, i as u32)));
+            let piece = [(0.5 * (p.z + q.z)).to_bits(), i as u32];
+            self.touched([low.x, low.y, high.x, high.y], |tile| pairs.push((tile, piece)));
         }
         pairs
     }
