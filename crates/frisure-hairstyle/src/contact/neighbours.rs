@@ -129,13 +129,7 @@ impl GridLevel {
         let rings = self.grid.rings(p.reach + self.reach);
         rows.clear();
         for row in self.grid.rows(p.position, rings) {
-            let end = row.end as u32;
-            let runs = row.step_by(LANES).map(|first| first as u32);
-            rows.extend(runs.map(|first| Run {
-                guide: 0,
-                first,
-                end: end.min(first + LANES as u32),
-            }));
+            rows.extend(Run::of_guide(0, row));
         }
         let own = SievePoint::new(p.position, p.reach);
         self.sieve.for_each_close(own, rows, |_, i| found(&self.points[i]));

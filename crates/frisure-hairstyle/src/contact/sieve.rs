@@ -2,6 +2,8 @@
 //!
 //! Most of what may touch does not: of the lists that [`super::neighbours`] keeps while guides move, one point in twelve touches.
 
+use std::ops::Range;
+
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x8};
 use glam::DVec3;
 
@@ -17,6 +19,15 @@ pub(super) struct Run {
     pub(super) guide: u32,
     pub(super) first: u32,
     pub(super) end: u32,
+}
+
+impl Run {
+    /// A range of points of a guide in runs.
+    pub(super) fn of_guide(guide: u32, points: Range<usize>) -> impl Iterator<Item = Self> {
+        let end = points.end as u32;
+        let firsts = points.step_by(LANES).map(|first| first as u32);
+        firsts.map(move |first| Self { guide, first, end: end.min(first + LANES as u32) })
+    }
 }
 
 /// What rounding to single precision may add to a distance, in its coordinates and in itself. A step of single precision is 6e-8; a

@@ -100,6 +100,38 @@ impl Grid {
             .map(move |(y, z)| row(y, z))
     }
 
+    /// Pieces of [`Self::order`] with all points within `reach` (m) of `p`, and some that are farther.
+    pub(crate) fn rows_within(
+        &self,
+        p: DVec3,
+        reach: f64,
+    ) -> impl Iterator<Item = Range<usize>> + '_ {
+        // A little more, for rounding.
+        let reach = reach * (1.0 + 1e-9) + 1e-12;
+        let last = self.size - IVec3::ONE;
+        let key = move |p: DVec3| self.key(p).clamp(IVec3::NEG_ONE, last + IVec3::ONE);
+        let (from, to) = (key(p - reach).max(IVec3::ZERO), key(p + reach).min(last));
+        // How far a coordinate is from a layer of cells.
+        let beside = move |place: f64, low: f64, cell: i32| {
+            let from = low + f64::from(cell) * self.cell;
+            (from - place).max(place - from - self.cell).max(0.0)
+        };
+        let row = move |y: i32, z: i32| {
+            let (dy, dz) = (beside(p.y, self.low.y, y), beside(p.z, self.low.z, z));
+            let left = reach * reach - dy * dy - dz * dz;
+            // Cells of the row that a sphere of that radius may meet.
+            let half = DVec3::X * left.max(0.0).sqrt();
+            let (from, to) = (key(p - half).x.max(0), key(p + half).x.min(last.x));
+            (left >= 0.0 && from <= to).then(|| {
+                let first = self.starts[self.index(IVec3::new(from, y, z))] as usize;
+                first..self.starts[self.index(IVec3::new(to, y, z)) + 1] as usize
+            })
+        };
+        (from.z..=to.z)
+            .flat_map(move |z| (from.y..=to.y).map(move |y| (y, z)))
+            .filter_map(move |(y, z)| row(y, z))
+    }
+
     /// The `count` points nearest to `p`, nearest first; fewer if there are fewer.
     pub(crate) fn nearest(&self, p: DVec3, count: usize, points: &[DVec3]) -> Vec<usize> {
         let mut rings = 1;
@@ -139,8 +171,13 @@ mod tests {
                 assert_eq!(grid.nearest(p, 5, &points), all[..5]);
                 assert_eq!(grid.nearest(p, 500, &points).len(), 200);
                 let near: Vec<usize> = grid.near(p).collect();
-                for i in (0..200).filter(|&i| points[i].distance(p) <= reach) {
-                    assert!(near.contains(&i));
+                let rows: Vec<u32> = grid
+                    .rows_within(p, 1.7 * reach)
+                    .flat_map(|row| grid.order()[row].to_vec())
+                    .collect();
+                for i in 0..200 {
+                    assert!(points[i].distance(p) > reach || near.contains(&i));
+                    assert!(points[i].distance(p) > 1.7 * reach || rows.contains(&(i as u32)));
                 }
             }
         }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::{DMat3, DVec3};
 
 use super::kernel::Kernel;
+use crate::contact::sieve::{Run, Sieve, SievePoint};
 use crate::contact::thickness::Thickness;
 use crate::math::{Grid, outer};
 use crate::parallel;
@@ -47,10 +48,12 @@ pub(crate) struct Density {
     /// Distance between points along each guide (m).
     pub(super) spacing: Vec<f64>,
     pub(super) points: Points,
-    /// Which points may be within reach of each other.
-    near: Near,
+    /// For each point the points of other guides that may be within reach.
+    near: Vec<Vec<u32>>,
     /// How much denser than at the onset hair is at each point; 0 where it is not.
     pub(super) excess: Vec<f64>,
+    /// Derivative (J) of the energy of each point by its density.
+    pressure: Vec<f64>,
 }
 
 /// What is known of every point, in the order of guides.
@@ -59,10 +62,8 @@ pub(super) struct Points {
     guide: Vec<u32>,
     /// Length of hair (m) that each stands for.
     pub(super) length: Vec<f64>,
-    /// Volume (m³) that its hairs take, by the cross-section of the wisp.
-    pub(super) volume: Vec<f64>,
-    /// Half of the reach (m) of the kernel between two points of the same kind.
-    half_reach: Vec<f64>,
+    /// What others need of it.
+    pub(super) sites: Vec<Site>,
     /// Fraction of space that its own wisp, straight, takes there.
     own: Vec<f64>,
     /// Energy per volume (Pa) of its hair at an excess of 1.
@@ -71,7 +72,36 @@ pub(super) struct Points {
     onset: Vec<f64>,
     /// Whether it is held in a braid.
     braided: Vec<bool>,
-    positions: Vec<DVec3>,
+}
+
+/// What is read of a point for each of its neighbours, in one place of the memory.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Site {
+    pub(super) position: DVec3,
+    /// Half of the reach (m) of the kernel between two points of the same kind.
+    half_reach: f64,
+    /// Volume (m³) that its hairs take, by the cross-section of the wisp.
+    pub(super) volume: f64,
+}
+
+impl Site {
+    /// The kernel between two points.
+    #[inline]
+    fn kernel(&self, other: &Self) -> Kernel {
+        Kernel::new(self.half_reach + other.half_reach)
+    }
+
+    /// Fraction of space that the hair of `other` takes here.
+    #[inline]
+    fn density_of(&self, other: &Self) -> f64 {
+        let (square, reach) =
+            (self.position.distance_squared(other.position), self.half_reach + other.half_reach);
+        // Before the root and the divisions: of those that may be within reach half are not.
+        if square >= reach * reach {
+            return 0.0;
+        }
+        other.volume * self.kernel(other).value(square.sqrt())
+    }
 }
 
 /// A point as a search for neighbours sees it.
@@ -81,19 +111,6 @@ struct Candidate {
     reach: f64,
     index: u32,
     guide: u32,
-}
-
-/// For each point the points of other guides that may be within reach.
-#[derive(Default)]
-struct Near {
-    starts: Vec<u32>,
-    others: Vec<u32>,
-}
-
-impl Near {
-    fn of(&self, point: usize) -> &[u32] {
-        &self.others[self.starts[point] as usize..self.starts[point + 1] as usize]
-    }
 }
 
 /// Stiffness of a wisp's hair, as a share of that of curls, and the fraction of space at which it begins to press, from those at the
@@ -111,18 +128,16 @@ impl Points {
         let mut points = Self {
             guide: Vec::new(),
             length: Vec::new(),
-            volume: Vec::new(),
-            half_reach: Vec::new(),
+            sites: Vec::new(),
             own: Vec::new(),
             modulus: Vec::new(),
             onset: Vec::new(),
             braided: Vec::new(),
-            positions: Vec::new(),
         };
         for (guide, strand) in strands.into_iter().enumerate() {
             let last = strand.positions.len();
             let (share, onset) = hardness(&strand.thickness, 0.5 * strand.spacing * last as f64);
-            for k in 1..=last {
+            for (k, position) in (1..=last).zip(strand.positions) {
                 let s = k as f64 * strand.spacing;
                 // The trapezoidal rule; the root, which is clamped, is no point.
                 let length = if k == last { 0.5 * strand.spacing } else { strand.spacing };
@@ -132,27 +147,19 @@ impl Points {
                 let half = 0.5 * REACH * strand.thickness.packed(s);
                 points.guide.push(guide as u32);
                 points.length.push(length);
-                points.volume.push(section * length);
-                points.half_reach.push(half);
+                points.sites.push(Site { position, half_reach: half, volume: section * length });
                 points.own.push(section * Kernel::new(2.0 * half).line());
                 points.modulus.push(share * modulus);
                 points.onset.push(onset);
                 let is_in = |[from, to]: [f64; 2]| (from..=to).contains(&s);
                 points.braided.push(strand.braided.is_some_and(is_in));
             }
-            points.positions.extend(strand.positions);
         }
         points
     }
 
     pub(super) fn len(&self) -> usize {
         self.guide.len()
-    }
-
-    /// The kernel between two points.
-    #[inline]
-    fn kernel(&self, a: usize, b: usize) -> Kernel {
-        Kernel::new(self.half_reach[a] + self.half_reach[b])
     }
 }
 
@@ -165,9 +172,9 @@ impl Density {
         }
         let spacing = strands.iter().map(|strand| strand.spacing).collect();
         let points = Points::new(strands, stiffness / STIFFNESS_PER_MODULUS);
-        let excess = vec![0.0; points.len()];
-        let near = Near { starts: vec![0; points.len() + 1], others: Vec::new() };
-        Self { starts, spacing, points, near, excess }
+        let (excess, pressure) = (vec![0.0; points.len()], vec![0.0; points.len()]);
+        let near = vec![Vec::new(); points.len()];
+        Self { starts, spacing, points, near, excess, pressure }
     }
 
     /// The points of a guide.
@@ -178,70 +185,67 @@ impl Density {
     /// Moves the points of a guide. [`Self::measure`] has to follow.
     pub(crate) fn place(&mut self, guide: usize, positions: &[DVec3]) {
         let range = self.of_guide(guide);
-        self.points.positions[range].copy_from_slice(positions);
+        for (site, position) in self.points.sites[range].iter_mut().zip(positions) {
+            site.position = *position;
+        }
     }
 
     /// Finds which points can come within reach while each guide moves by at most its margin (m).
     pub(crate) fn update_neighbours(&mut self, margins: &[f64]) {
-        self.near = Near::default();
+        self.near = Vec::new();
         let points = &self.points;
-        let reach = |k: usize| points.half_reach[k] + margins[points.guide[k] as usize];
+        let reach = |k: usize| points.sites[k].half_reach + margins[points.guide[k] as usize];
         let most = (0..points.len()).map(reach).fold(0.0, f64::max);
+        let positions: Vec<DVec3> = points.sites.iter().map(|site| site.position).collect();
         // Cells of half the longest reach of a pair: two rings of them hold fewer points than one ring of wide cells.
-        let grid = Grid::new(&points.positions, most);
-        let rings = grid.rings(2.0 * most);
+        let grid = Grid::new(&positions, most);
         // In the order of cells, so that a row of them is read in one piece: half of the time of a step was spent here before.
         let candidate = |&index: &u32| {
             let k = index as usize;
-            Candidate {
-                position: points.positions[k],
-                reach: reach(k),
-                index,
-                guide: points.guide[k],
-            }
+            let (position, guide) = (positions[k], points.guide[k]);
+            Candidate { position, reach: reach(k), index, guide }
         };
         let sorted: Vec<Candidate> = grid.order().iter().map(candidate).collect();
+        let (places, reaches): (Vec<DVec3>, Vec<f64>) =
+            sorted.iter().map(|candidate| (candidate.position, candidate.reach)).unzip();
+        let sieve = Sieve::new(std::iter::once((&places[..], &reaches[..])));
         let near = |k: usize| -> Vec<u32> {
+            let mut found = Vec::new();
             if points.braided[k] {
-                return Vec::new();
+                return found;
             }
-            let (p, own, reach) = (points.positions[k], points.guide[k], reach(k));
-            let close = |other: &&Candidate| {
+            let (p, own, reach) = (positions[k], points.guide[k], reach(k));
+            let rows = grid.rows_within(p, reach + most);
+            let runs: Vec<Run> = rows.flat_map(|row| Run::of_guide(0, row)).collect();
+            sieve.for_each_close(SievePoint::new(p, reach), &runs, |_, i| {
+                let other = &sorted[i];
                 let within = reach + other.reach;
-                other.guide != own
+                if other.guide != own
                     && !points.braided[other.index as usize]
                     && other.position.distance_squared(p) < within * within
-            };
-            let rows = grid.rows(p, rings).flat_map(|row| &sorted[row]);
-            rows.filter(close).map(|other| other.index).collect()
+                {
+                    found.push(other.index);
+                }
+            });
+            found
         };
-        let found: Vec<Vec<u32>> = parallel::map(points.len(), near);
-        let mut starts = Vec::with_capacity(found.len() + 1);
-        starts.push(0);
-        let mut total = 0;
-        for others in &found {
-            total += others.len() as u32;
-            starts.push(total);
-        }
-        self.near = Near { starts, others: found.concat() };
+        self.near = parallel::map(points.len(), near);
     }
 
     /// Measures how dense hair is at every point where it is now.
     pub(crate) fn measure(&mut self) {
         let (points, near) = (&self.points, &self.near);
         let excess = |k: usize| {
-            let p = points.positions[k];
-            let of = |&l: &u32| {
-                let l = l as usize;
-                points.volume[l] * points.kernel(k, l).value(p.distance(points.positions[l]))
-            };
             if points.braided[k] {
                 return 0.0;
             }
-            let dense: f64 = points.own[k] + near.of(k).iter().map(of).sum::<f64>();
+            let site = &points.sites[k];
+            let others = near[k].iter().map(|&l| site.density_of(&points.sites[l as usize]));
+            let dense: f64 = points.own[k] + others.sum::<f64>();
             (dense - points.onset[k]).max(0.0)
         };
         self.excess = parallel::map(points.len(), excess);
+        self.pressure = (0..self.points.len()).map(|k| self.by_density(k).0).collect();
     }
 }
 
@@ -261,35 +265,34 @@ pub(super) struct Pair {
 impl Density {
     /// Energy of a point (J). docs/theory.md (D2)
     pub(super) fn energy(&self, k: usize) -> f64 {
-        self.points.modulus[k] * self.points.volume[k] * self.excess[k].powi(3)
+        self.points.modulus[k] * self.points.sites[k].volume * self.excess[k].powi(3)
     }
 
     /// First and second derivative of a point's energy by its density (J).
     #[inline]
     pub(super) fn by_density(&self, k: usize) -> (f64, f64) {
-        let (x, scale) = (self.excess[k], self.points.modulus[k] * self.points.volume[k]);
+        let x = self.excess[k];
+        let scale = self.points.modulus[k] * self.points.sites[k].volume;
         (3.0 * scale * x * x, 6.0 * scale * x)
     }
 
     /// Calls `pressed` with the pairs of a point that press on each other.
     #[inline]
     pub(super) fn for_each_pair(&self, k: usize, mut pressed: impl FnMut(&Pair)) {
-        let points = &self.points;
-        let (own, _) = self.by_density(k);
-        for &l in self.near.of(k) {
-            let other = l as usize;
-            let (theirs, _) = self.by_density(other);
+        let (site, own) = (&self.points.sites[k], self.pressure[k]);
+        for &l in &self.near[k] {
+            let (other, theirs) = (&self.points.sites[l as usize], self.pressure[l as usize]);
             if own <= 0.0 && theirs <= 0.0 {
                 continue;
             }
-            let away = points.positions[k] - points.positions[other];
+            let away = site.position - other.position;
             let distance = away.length();
-            let (across, bend) = points.kernel(k, other).derivatives(distance);
+            let (across, bend) = site.kernel(other).derivatives(distance);
             if across == 0.0 {
                 continue;
             }
             // Each feels the volume of the other: E′_k V_l + E′_l V_k.
-            let pressure = own * points.volume[other] + theirs * points.volume[k];
+            let pressure = own * other.volume + theirs * site.volume;
             let slope = away * across;
             let square = slope.length_squared();
             let along = if square > 0.0 { pressure * (bend - across) / square } else { 0.0 };
@@ -304,7 +307,8 @@ impl Density {
     /// Gradient (N) of the energy by a point, and the part of its Hessian (N/m) that is positive semidefinite: what its own
     /// density and that of others make of it, and pairs that stiffen.
     pub(super) fn derivatives(&self, k: usize) -> Option<(DVec3, DMat3)> {
-        let volume = self.points.volume[k];
+        let sites = &self.points.sites;
+        let volume = sites[k].volume;
         let (own, own_bulk) = self.by_density(k);
         let mut sum: Option<(DVec3, DMat3)> = None;
         let mut gathered = DVec3::ZERO;
@@ -312,9 +316,9 @@ impl Density {
             let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
             let other = pair.other as usize;
             let (theirs, bulk) = self.by_density(other);
-            *force += pair.slope * (own * self.points.volume[other] + theirs * volume);
+            *force += pair.slope * (own * sites[other].volume + theirs * volume);
             *stiffness += outer(pair.slope, pair.slope) * (bulk * volume * volume + pair.stiff);
-            gathered += pair.slope * self.points.volume[other];
+            gathered += pair.slope * sites[other].volume;
         });
         let (force, stiffness) = sum?;
         Some((force, stiffness + outer(gathered, gathered) * own_bulk))
@@ -367,8 +371,8 @@ mod tests {
     }
 
     fn moved(density: &mut Density, step: &[DVec3], fraction: f64) {
-        for (p, x) in density.points.positions.iter_mut().zip(step) {
-            *p += *x * fraction;
+        for (site, x) in density.points.sites.iter_mut().zip(step) {
+            site.position += *x * fraction;
         }
         density.measure();
     }
@@ -389,7 +393,7 @@ mod tests {
         assert!(density.excess.iter().filter(|x| **x > 0.1).count() > 20);
         let size = gradient.iter().map(|g| g.length()).sum::<f64>();
         // No force and no couple on the whole.
-        let positions = density.points.positions.iter();
+        let positions = density.points.sites.iter().map(|site| site.position);
         let sum: DVec3 = gradient.iter().sum();
         let couple: DVec3 = positions.zip(&gradient).map(|(p, g)| p.cross(*g)).sum();
         assert!(sum.length() < 1e-12 * size && couple.length() < 1e-14 * size, "{sum} {couple}");
@@ -427,12 +431,13 @@ mod tests {
         let turn = DQuat::from_rotation_z(0.83);
         let density = bundle();
         let strands = lines(&[DVec3::ZERO; 10], 12, 2e-3);
-        let turned = strands.into_iter().zip(density.points.positions.chunks(12)).map(
-            |(strand, positions)| Strand {
-                positions: positions.iter().map(|p| turn * *p).collect(),
-                ..strand
-            },
-        );
+        let turned =
+            strands.into_iter().zip(density.points.sites.chunks(12)).map(|(strand, sites)| {
+                Strand {
+                    positions: sites.iter().map(|site| turn * site.position).collect(),
+                    ..strand
+                }
+            });
         let turned = measured(turned.collect());
         assert!((energy(&turned) / energy(&density) - 1.0).abs() < 1e-12);
         for (a, b) in gradient(&density).iter().zip(gradient(&turned)) {

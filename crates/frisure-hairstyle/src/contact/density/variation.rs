@@ -8,9 +8,8 @@ use super::hair::{Density, Pair};
 /// The second derivative of the energy of density at one state of the head.
 pub(crate) struct DensityVariation {
     starts: Vec<usize>,
-    /// Where the pairs of each point begin; one more than points.
-    firsts: Vec<u32>,
-    pairs: Vec<Pair>,
+    /// The pairs of each point.
+    pairs: Vec<Pairs>,
     volume: Vec<f64>,
     /// Second derivative of a point's energy by its density (J).
     bulk: Vec<f64>,
@@ -18,28 +17,43 @@ pub(crate) struct DensityVariation {
     blocks: Vec<DMat3>,
 }
 
+/// The pairs of one point: what the change of density needs of them apart from the rest, since memory is what limits a product.
+#[derive(Default)]
+struct Pairs {
+    others: Vec<u32>,
+    /// [`Pair::slope`]
+    slopes: Vec<DVec3>,
+    /// [`Pair::across`] and [`Pair::along`]
+    pressed: Vec<[f64; 2]>,
+}
+
+impl Pairs {
+    fn push(&mut self, pair: &Pair) {
+        self.others.push(pair.other);
+        self.slopes.push(pair.slope);
+        self.pressed.push([pair.across, pair.along]);
+    }
+
+    /// The others and the slopes.
+    fn iter(&self) -> impl Iterator<Item = (usize, DVec3)> + '_ {
+        self.others.iter().map(|&l| l as usize).zip(self.slopes.iter().copied())
+    }
+}
+
 impl Density {
     /// The second derivative where hair is now.
     pub(crate) fn variation(&self) -> DensityVariation {
         let count = self.points.len();
         let pairs = parallel::map(count, |k| {
-            let mut pairs = Vec::new();
-            self.for_each_pair(k, |pair| pairs.push(*pair));
+            let mut pairs = Pairs::default();
+            self.for_each_pair(k, |pair| pairs.push(pair));
             pairs
         });
-        let mut firsts = Vec::with_capacity(count + 1);
-        firsts.push(0);
-        let mut total = 0;
-        for pairs in &pairs {
-            total += pairs.len() as u32;
-            firsts.push(total);
-        }
         let block = |k: usize| self.derivatives(k).map_or(DMat3::ZERO, |(_, block)| block);
         DensityVariation {
             starts: self.starts.clone(),
-            firsts,
-            pairs: pairs.concat(),
-            volume: self.points.volume.clone(),
+            pairs,
+            volume: self.points.sites.iter().map(|site| site.volume).collect(),
             bulk: (0..count).map(|k| self.by_density(k).1).collect(),
             blocks: parallel::map(count, block),
         }
@@ -47,10 +61,6 @@ impl Density {
 }
 
 impl DensityVariation {
-    fn of(&self, k: usize) -> &[Pair] {
-        &self.pairs[self.firsts[k] as usize..self.firsts[k + 1] as usize]
-    }
-
     /// For displacements (m) of all points, the change of force (N) at each that the second variations of guides do not have.
     pub(crate) fn forces(&self, moved: &[&[DVec3]]) -> Vec<Vec<DVec3>> {
         let moved: Vec<DVec3> = moved.iter().flat_map(|points| points.iter().copied()).collect();
@@ -59,22 +69,17 @@ impl DensityVariation {
             if self.bulk[k] == 0.0 {
                 return 0.0;
             }
-            let of = |pair: &Pair| {
-                let l = pair.other as usize;
-                self.volume[l] * pair.slope.dot(moved[k] - moved[l])
-            };
-            self.bulk[k] * self.of(k).iter().map(of).sum::<f64>()
+            let of = |(l, slope): (usize, DVec3)| self.volume[l] * slope.dot(moved[k] - moved[l]);
+            self.bulk[k] * self.pairs[k].iter().map(of).sum::<f64>()
         };
         let pressures = parallel::map(moved.len(), pressure);
         // 2. The force of that, and of pairs that turn and come nearer.
         let force = |k: usize| {
             let mut sum = DVec3::ZERO;
-            for pair in self.of(k) {
-                let l = pair.other as usize;
+            for ((l, slope), [across, along]) in self.pairs[k].iter().zip(&self.pairs[k].pressed) {
                 let apart = moved[k] - moved[l];
                 let squeezed = pressures[k] * self.volume[l] + pressures[l] * self.volume[k];
-                let along = pair.along * pair.slope.dot(apart);
-                sum += apart * pair.across + pair.slope * (along + squeezed);
+                sum += apart * *across + slope * (along * slope.dot(apart) + squeezed);
             }
             sum - self.blocks[k] * moved[k]
         };
