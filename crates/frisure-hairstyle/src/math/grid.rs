@@ -175,9 +175,10 @@ mod tests {
                     .rows_within(p, 1.7 * reach)
                     .flat_map(|row| grid.order()[row].to_vec())
                     .collect();
-                for i in 0..200 {
-                    assert!(points[i].distance(p) > reach || near.contains(&i));
-                    assert!(points[i].distance(p) > 1.7 * reach || rows.contains(&(i as u32)));
+                for (i, point) in points.iter().enumerate() {
+                    let distance = point.distance(p);
+                    assert!(distance > reach || near.contains(&i));
+                    assert!(distance > 1.7 * reach || rows.contains(&(i as u32)));
                 }
             }
         }
