@@ -54,8 +54,8 @@ struct Touching {
 /// Shorter and fewer ones take less: 71 kB each of 800 of 10 cm.
 const TOUCHING: Touching = Touching { metre: 1.45e6, power: 1.0, element: 1.6e3 };
 
-/// Wisps that press on each other as a volume. Measured: each of 400 wavy wisps 388 kB with 40 cm, each of 800 of 40 cm 0.62 MB in 330 s, when it had not ended, each of 1600
-/// of 10 cm 131 kB, and each of 200 of 20 cm in 300 elements 1.2 MB.
+/// Wisps that press on each other as a volume. Measured: each of 400 wavy wisps 388 kB with 40 cm, each of 800 of 40 cm 0.62 MB in 330 s,
+/// when it had not ended, each of 1600 of 10 cm 131 kB, and each of 200 of 20 cm in 300 elements 1.2 MB.
 const PRESSING: Touching = Touching { metre: 2e6, power: 1.34, element: 4.6e3 };
 
 /// Wisps at which the lengths above hold. More of them are nearer, and touch in more places: what each takes grows about as the square root of
