@@ -225,6 +225,22 @@ fn displacements_are_the_derivative_of_sample_points_and_their_transpose_that_of
 }
 
 #[test]
+fn tethers_add_what_a_displacement_of_the_nodes_costs() {
+    let mut random = SplitMix64(9);
+    let (x, y): (Vec<DVec3>, Vec<DVec3>) = (0..6).map(|_| (random.cube(), random.cube())).unzip();
+    for_each_problem(6, |name, chain, external| {
+        // With one sample in each element the sample points are the nodes.
+        let free = Problem::new(chain, external).second_variation(&chain.shape(bent(chain)), 1);
+        let mut held = free.clone();
+        held.tether(1e3);
+        let moved = [&x, &y].map(|step| free.displacements(step));
+        let (found, without) = (dot(&y, &held.apply(&x)), dot(&y, &free.apply(&x)));
+        let exact = 1e3 * dot(&moved[0], &moved[1]);
+        assert!((found - without - exact).abs() < 1e-10 * exact.abs(), "{name}");
+    });
+}
+
+#[test]
 fn one_pass_gives_the_product_and_the_forces_by_the_controls() {
     let mut random = SplitMix64(8);
     for_each_problem(6, |name, chain, external| {

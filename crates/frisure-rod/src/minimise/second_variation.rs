@@ -200,6 +200,20 @@ impl SecondVariation {
         }
     }
 
+    /// Adds the second derivative of tethers that hold each node where it is, `½ c |ξ|²` with the stiffness c (N/m) and the displacement ξ of
+    /// the node: a trust region in space.
+    pub fn tether(&mut self, stiffness: f64) {
+        let stiffness = DMat3::from_diagonal(DVec3::splat(stiffness));
+        let none = NodeBlocks {
+            rotation_rotation: DMat3::ZERO,
+            rotation_position: DMat3::ZERO,
+            position_position: DMat3::ZERO,
+        };
+        // There are none without external potentials.
+        self.nodes.resize(self.elements.len(), none);
+        self.nodes.iter_mut().for_each(|node| node.position_position += stiffness);
+    }
+
     /// Derivative of the energy by each element's control (N m) at the same shape.
     #[must_use]
     pub fn gradient(&self) -> &[DVec3] {
