@@ -15,6 +15,7 @@ mod density;
 mod friction;
 mod layers;
 mod lock;
+mod nearby;
 mod neighbours;
 mod pull;
 mod sieve;

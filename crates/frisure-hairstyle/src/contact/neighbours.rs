@@ -5,10 +5,11 @@ use glam::{DMat3, DVec3};
 
 use super::body::FrictionCoefficients;
 use super::friction::{FrictionGap, Scales, directions};
-use super::sieve::{LANES, Run, Sieve, SievePoint};
+use super::nearby::{NearLists, SearchPoint};
+use super::sieve::{Run, Sieve, SievePoint};
 use super::thickness::Thickness;
 use super::wisp_friction::{Hold, Holds, Touching};
-use crate::math::{Grid, outer};
+use crate::math::outer;
 use crate::parallel;
 
 /// The points of one guide at which contact is evaluated: evenly spaced, without the root.
@@ -56,84 +57,11 @@ pub(crate) struct ContactPairs {
     /// The same points, for a first look at what is near.
     sieve: Sieve,
     /// Per guide, what its points may touch.
-    nearby: Vec<Nearby>,
+    nearby: NearLists,
     /// Per guide, the friction of its hair; empty without friction.
     friction: Vec<FrictionCoefficients>,
     /// Per guide, what sticks to its points; empty without friction.
     holds: Vec<Holds>,
-}
-
-/// What the points of one guide may touch.
-#[derive(Clone, Debug, Default)]
-struct Nearby {
-    /// Where the touches of each point begin; one more than points.
-    starts: Vec<u32>,
-    /// Guides pass each other along a piece, not at a point: runs of points take a tenth of a list of them.
-    touches: Vec<Run>,
-    /// The guides among them, in order.
-    guides: Vec<u32>,
-}
-
-/// Own points, with another guide that each of them may touch, and which point of that one.
-type Met = (Run, u32);
-
-/// A point while neighbours are looked for.
-#[derive(Clone, Copy)]
-struct Point {
-    position: DVec3,
-    /// Radius and margin (m).
-    reach: f64,
-    guide: u32,
-    index: u32,
-}
-
-/// Points of about the same reach, so that a few that reach far do not make all searches wide.
-struct GridLevel {
-    /// The largest of them (m).
-    reach: f64,
-    grid: Grid,
-    /// In the order of the grid.
-    points: Vec<Point>,
-    /// The same, as if they were those of one guide.
-    sieve: Sieve,
-}
-
-/// Levels, each for half the reach of the one before; the last for all that is less. No result depends on it.
-const LEVELS: usize = 3;
-
-impl GridLevel {
-    fn sort(points: &[Point]) -> Vec<Self> {
-        let most = points.iter().map(|p| p.reach).fold(0.0, f64::max);
-        let mut levels = vec![Vec::new(); LEVELS];
-        for p in points {
-            // The bound (m) keeps the ratio finite; the cast takes the whole part.
-            let halvings = (most / p.reach.max(1e-9)).log2() as usize;
-            levels[halvings.min(LEVELS - 1)].push(*p);
-        }
-        levels.into_iter().filter(|points| !points.is_empty()).map(Self::new).collect()
-    }
-
-    fn new(points: Vec<Point>) -> Self {
-        let reach = points.iter().map(|p| p.reach).fold(0.0, f64::max);
-        let positions: Vec<DVec3> = points.iter().map(|p| p.position).collect();
-        let grid = Grid::new(&positions, 2.0 * reach);
-        let points: Vec<Point> = grid.order().iter().map(|&i| points[i as usize]).collect();
-        let (positions, reaches): (Vec<DVec3>, Vec<f64>) =
-            points.iter().map(|p| (p.position, p.reach)).unzip();
-        let sieve = Sieve::new(std::iter::once((&positions[..], &reaches[..])));
-        Self { reach, grid, points, sieve }
-    }
-
-    /// Calls `found` with those within reach of a point, and a few that hardly are not; `rows` is a place for runs.
-    fn for_each_near(&self, p: &Point, rows: &mut Vec<Run>, mut found: impl FnMut(&Point)) {
-        let rings = self.grid.rings(p.reach + self.reach);
-        rows.clear();
-        for row in self.grid.rows(p.position, rings) {
-            rows.extend(Run::of_guide(0, row));
-        }
-        let own = SievePoint::new(p.position, p.reach);
-        self.sieve.for_each_close(own, rows, |_, i| found(&self.points[i]));
-    }
 }
 
 /// Two points that touch, seen from the guide of the first, and the second derivative of their energy by the separation
@@ -162,120 +90,10 @@ impl Contact {
     }
 }
 
-/// Guide and point of what each of a guide's points may touch, in the order of `met`: where those of each point begin, and all.
-fn by_point(met: &[Met], points: usize) -> (Vec<usize>, Vec<(u32, u32)>) {
-    // Counting sort: there are many for each point.
-    let mut starts = vec![0; points + 1];
-    let own = |run: &Run| run.first as usize..run.end as usize;
-    for k in met.iter().flat_map(|(run, _)| own(run)) {
-        starts[k + 1] += 1;
-    }
-    for k in 0..points {
-        starts[k + 1] += starts[k];
-    }
-    let mut next = starts.clone();
-    let mut touches = vec![(0, 0); starts[points]];
-    for (run, point) in met {
-        for k in own(run) {
-            touches[next[k]] = (run.guide, *point);
-            next[k] += 1;
-        }
-    }
-    (starts, touches)
-}
-
-impl Nearby {
-    /// What the points `own` of one guide may touch.
-    fn search(own: &[Point], levels: &[GridLevel]) -> Self {
-        let mut near = Self::default();
-        let mut rows = Vec::new();
-        for p in own {
-            near.begin_point();
-            for level in levels {
-                level.for_each_near(p, &mut rows, |q| {
-                    let reach = p.reach + q.reach;
-                    // Radii and margins of both: neither can come to touch the other before its margin is used up.
-                    let touches = q.position.distance_squared(p.position) < reach * reach;
-                    if touches && q.guide != p.guide {
-                        near.add(Run { guide: q.guide, first: q.index, end: q.index + 1 });
-                    }
-                });
-            }
-        }
-        near.finish()
-    }
-
-    /// What is added from now on is near the next point.
-    fn begin_point(&mut self) {
-        self.starts.push(self.touches.len() as u32);
-    }
-
-    /// Adds to what the last point may touch.
-    fn add(&mut self, run: Run) {
-        let begins = self.starts.last().is_none_or(|&start| self.touches.len() == start as usize);
-        match self.touches.last_mut() {
-            Some(last)
-                if !begins
-                    && last.guide == run.guide
-                    && last.end == run.first
-                    && (run.end - last.first) as usize <= LANES =>
-            {
-                last.end = run.end;
-            }
-            _ => self.touches.push(run),
-        }
-    }
-
-    fn finish(mut self) -> Self {
-        self.begin_point();
-        self.touches.shrink_to_fit();
-        let count = self.touches.iter().map(|run| run.guide as usize + 1).max().unwrap_or(0);
-        let mut touched = vec![false; count];
-        for run in &self.touches {
-            touched[run.guide as usize] = true;
-        }
-        self.guides = (0..count as u32).filter(|&guide| touched[guide as usize]).collect();
-        self.guides.shrink_to_fit();
-        self
-    }
-
-    fn points(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
-    /// What point `k` may touch; the order is that of the sums over it.
-    fn of_point(&self, k: usize) -> &[Run] {
-        &self.touches[self.starts[k] as usize..self.starts[k + 1] as usize]
-    }
-
-    /// Each point with what it may touch.
-    fn iter(&self) -> impl Iterator<Item = (u32, &Run)> {
-        (0..self.points()).flat_map(|k| self.of_point(k).iter().map(move |run| (k as u32, run)))
-    }
-
-    /// The same, but for what it may touch of those guides that were looked at again.
-    fn amended(self, met: &[Met], again: &[bool]) -> Self {
-        if met.is_empty() && !self.guides.iter().any(|&g| again[g as usize]) {
-            return self;
-        }
-        let (starts, met) = by_point(met, self.points());
-        let mut near = Self::default();
-        for k in 0..self.points() {
-            near.begin_point();
-            let stays = self.of_point(k).iter().filter(|run| !again[run.guide as usize]);
-            stays.for_each(|run| near.add(*run));
-            for &(guide, point) in &met[starts[k]..starts[k + 1]] {
-                near.add(Run { guide, first: point, end: point + 1 });
-            }
-        }
-        near.finish()
-    }
-}
-
 impl ContactPairs {
     pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
         let sieve = Sieve::new(samples.iter().map(|own| (&own.positions[..], &own.radii[..])));
-        let (nearby, friction, holds) = (Vec::new(), Vec::new(), Vec::new());
+        let (nearby, friction, holds) = (NearLists::default(), Vec::new(), Vec::new());
         Self { stiffness, samples, sieve, nearby, friction, holds }
     }
 
@@ -327,38 +145,13 @@ impl ContactPairs {
     /// Finds which points can touch while each guide moves by at most its margin (m) from where it
     /// is now, of guides that are looked at again, or from where it was when it last was.
     pub(crate) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
-        // Old lists go before new ones are made: both are the largest part of the memory.
-        for (near, _) in self.nearby.iter_mut().zip(again).filter(|(_, again)| **again) {
-            *near = Nearby::default();
-        }
-        let points = self.points(margins);
-        let levels = GridLevel::sort(&points);
-        let own: Vec<&[Point]> = points.chunk_by(|a, b| a.guide == b.guide).collect();
-        let found: Vec<Option<Nearby>> = parallel::map_slice(&own, |own| {
-            again[own[0].guide as usize].then(|| Nearby::search(own, &levels))
-        });
-        // A touch belongs to both guides: what a search found is entered with those that were not searched, too. So the
-        // energy of a pair is the same from either side.
-        let mut met: Vec<Vec<Met>> = vec![Vec::new(); found.len()];
-        for (guide, near) in found.iter().enumerate() {
-            for (k, run) in near.iter().flat_map(Nearby::iter) {
-                if !again[run.guide as usize] {
-                    met[run.guide as usize].push((Run { guide: guide as u32, ..*run }, k));
-                }
-            }
-        }
-        self.nearby.resize_with(found.len(), Nearby::default);
-        let mut kept: Vec<_> = self.nearby.iter_mut().zip(found).collect();
-        parallel::for_each_mut(&mut kept, |i, (nearby, found)| {
-            **nearby =
-                (found.take()).unwrap_or_else(|| std::mem::take(*nearby).amended(&met[i], again));
-        });
+        self.nearby.update(&self.points(margins), again);
     }
 
     /// All points, guide by guide.
-    fn points(&self, margins: &[f64]) -> Vec<Point> {
+    fn points(&self, margins: &[f64]) -> Vec<SearchPoint> {
         let of = |(guide, s): (usize, &Samples)| {
-            let point = |k: usize| Point {
+            let point = |k: usize| SearchPoint {
                 position: s.positions[k],
                 reach: s.radii[k] + margins[guide],
                 guide: guide as u32,
@@ -371,26 +164,12 @@ impl ContactPairs {
 
     /// Guides in groups of which no two may touch, taken in the given order.
     pub(crate) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
-        const NONE: usize = usize::MAX;
-        let mut group = vec![NONE; self.samples.len()];
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        // Greedy colouring of the graph of touches: the first group in which no neighbour is.
-        for &guide in order {
-            let taken: Vec<usize> =
-                self.nearby[guide].guides.iter().map(|&g| group[g as usize]).collect();
-            let free = (0..=groups.len()).find(|g| !taken.contains(g)).unwrap_or(groups.len());
-            if free == groups.len() {
-                groups.push(Vec::new());
-            }
-            group[guide] = free;
-            groups[free].push(guide);
-        }
-        groups
+        self.nearby.groups(order)
     }
 
     /// The guides that one guide may touch.
     pub(crate) fn touched_by(&self, guide: usize) -> impl Iterator<Item = usize> {
-        self.nearby[guide].guides.iter().map(|&g| g as usize)
+        self.nearby.of_guide(guide).guides()
     }
 
     /// Sets the stiffness of hair per length of hair (Pa).
@@ -402,7 +181,7 @@ impl ContactPairs {
     pub(crate) fn contacts(&self, guide: usize) -> Vec<Contact> {
         let own = &self.samples[guide];
         let mut contacts = Vec::new();
-        for here in 0..self.nearby[guide].points() {
+        for here in 0..self.nearby.of_guide(guide).points() {
             self.for_each_close(guide, here, own.positions[here], |other, there| {
                 let samples = &self.samples[other as usize];
                 let away = own.positions[here] - samples.positions[there];
@@ -429,7 +208,7 @@ impl ContactPairs {
 
     /// How far (m) the points of a guide are from where they begin to touch, or to leave, those of others; infinite where none is near.
     pub(crate) fn switch_distance(&self, guide: usize) -> f64 {
-        let (own, near) = (&self.samples[guide], &self.nearby[guide]);
+        let (own, near) = (&self.samples[guide], self.nearby.of_guide(guide));
         let gap = |(here, run): (u32, &Run)| {
             let (here, other) = (here as usize, &self.samples[run.guide as usize]);
             let points = run.first as usize..run.end as usize;
@@ -449,7 +228,7 @@ impl ContactPairs {
     #[inline]
     fn for_each_close(&self, guide: usize, k: usize, p: DVec3, mut close: impl FnMut(u32, usize)) {
         let own = SievePoint::new(p, self.samples[guide].radii[k]);
-        let near = self.nearby[guide].of_point(k);
+        let near = self.nearby.of_guide(guide).of_point(k);
         self.sieve.for_each_close(own, near, |run, point| close(run.guide, point));
     }
 
@@ -610,6 +389,7 @@ impl Field for Neighbours<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::sieve::LANES;
     use crate::contact::test_field::{agrees_with_differences, wisp};
 
     /// A straight guide along x through `offset`, of 100 points.
@@ -690,7 +470,7 @@ mod tests {
 
     /// Guide and point of what a point may touch.
     fn found(pairs: &ContactPairs, guide: usize, k: usize) -> Vec<(u32, u32)> {
-        let runs = pairs.nearby[guide].of_point(k).iter();
+        let runs = pairs.nearby.of_guide(guide).of_point(k).iter();
         let mut found: Vec<_> =
             runs.flat_map(|run| (run.first..run.end).map(|p| (run.guide, p))).collect();
         found.sort_unstable();
@@ -733,10 +513,11 @@ mod tests {
 
     #[test]
     fn points_in_a_row_are_kept_as_few_runs() {
-        let near = &pairs(3e-3).nearby[0];
+        let pairs = pairs(3e-3);
+        let near = pairs.nearby.of_guide(0);
         let points: u32 = near.iter().map(|(_, run)| run.end - run.first).sum();
         // One that is not full where the guide passes out of reach, and full ones.
         let most = points as usize / LANES + near.points();
-        assert!(near.touches.len() <= most && points > 5 * 100, "{points}");
+        assert!(near.iter().count() <= most && points > 5 * 100, "{points}");
     }
 }

@@ -76,10 +76,15 @@ impl Sieve {
     pub(super) fn place(&mut self, guide: usize, positions: &[DVec3], radii: &[f64]) {
         let first = self.starts[guide] as usize;
         for (k, (&p, &radius)) in positions.iter().zip(radii).enumerate() {
-            let (at, SievePoint { place, reach }) = (first + k, SievePoint::new(p, radius));
-            [self.x[at], self.y[at], self.z[at]] = place;
-            self.reach[at] = reach;
+            self.place_point(first + k, p, radius);
         }
+    }
+
+    /// Moves the point `at`, counted over all guides.
+    pub(super) fn place_point(&mut self, at: usize, p: DVec3, radius: f64) {
+        let SievePoint { place, reach } = SievePoint::new(p, radius);
+        [self.x[at], self.y[at], self.z[at]] = place;
+        self.reach[at] = reach;
     }
 
     /// Calls `found` with the index of each point of the runs that is nearer to `own` than the radii of both, and of some that hardly are

@@ -205,6 +205,11 @@ impl<'a> Wisp<'a> {
         Anchor { stiffness, from: self.settled.shape.clone() }
     }
 
+    /// Stiffness (N/m) of a tether of each node against which weight and elasticity move the guide by some millimetres.
+    pub(super) fn node_firmness(&self) -> f64 {
+        firmness(&self.guide.rod, 0.0) * self.guide.rod.length() / self.chain.len() as f64
+    }
+
     /// Gradient and second variation of the energy while all others hold still, held by a tether.
     pub(super) fn second_variation(
         &self,

@@ -68,11 +68,6 @@ impl Grid {
         self.within(p, 1)
     }
 
-    /// Rings of cells that a search within `reach` (m) takes.
-    pub(crate) fn rings(&self, reach: f64) -> i32 {
-        (reach / self.cell).ceil().clamp(1.0, 1e6) as i32
-    }
-
     /// All points in the order of their cells.
     pub(crate) fn order(&self) -> &[u32] {
         &self.indices

@@ -4,11 +4,21 @@ use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
 use super::hair::Density;
+use super::variation::DensityVariation;
 
 impl Density {
     /// One guide among the others, where all are now.
     pub(crate) fn around(&self, guide: usize) -> AmongDensity<'_> {
-        AmongDensity { density: self, guide }
+        AmongDensity { density: self, guide, variation: None }
+    }
+
+    /// The same, of which the derivatives are known.
+    pub(crate) fn around_with<'a>(
+        &'a self,
+        guide: usize,
+        variation: &'a DensityVariation,
+    ) -> AmongDensity<'a> {
+        AmongDensity { variation: Some(variation), ..self.around(guide) }
     }
 }
 
@@ -21,6 +31,7 @@ impl Density {
 pub(crate) struct AmongDensity<'a> {
     density: &'a Density,
     guide: usize,
+    variation: Option<&'a DensityVariation>,
 }
 
 impl AmongDensity<'_> {
@@ -41,7 +52,11 @@ impl Field for AmongDensity<'_> {
 
     fn derivatives(&self, s: f64, _: DVec3) -> Option<(DVec3, DMat3)> {
         let k = self.point(s);
-        let (force, stiffness) = self.density.derivatives(k)?;
+        let derivatives = match self.variation {
+            Some(variation) => variation.derivatives(k),
+            None => self.density.derivatives(k),
+        };
+        let (force, stiffness) = derivatives?;
         let per_length = 1.0 / self.density.points.length[k];
         Some((force * per_length, stiffness * per_length))
     }

@@ -6,9 +6,10 @@ use std::ops::Range;
 use glam::{DMat3, DVec3};
 
 use super::kernel::Kernel;
-use crate::contact::sieve::{Run, Sieve, SievePoint};
+use crate::contact::nearby::{NearLists, SearchPoint};
+use crate::contact::sieve::{Sieve, SievePoint};
 use crate::contact::thickness::Thickness;
-use crate::math::{Grid, outer};
+use crate::math::outer;
 use crate::parallel;
 
 /// Reach of the kernel of two wisps, in the mean of their radii. Chosen: wide enough that some 16 wisps share it where hair is as
@@ -48,10 +49,12 @@ pub(crate) struct Density {
     /// Distance between points along each guide (m).
     pub(super) spacing: Vec<f64>,
     pub(super) points: Points,
-    /// For each point the points of other guides that may be within reach.
-    near: Vec<Vec<u32>>,
-    /// How much denser than at the onset hair is at each point; 0 where it is not.
-    pub(super) excess: Vec<f64>,
+    /// The points again, each with half of the reach of its kernel, for a first look at what is near.
+    sieve: Sieve,
+    /// What may be within reach of the points of each guide.
+    near: NearLists,
+    /// Fraction of space that hair takes at each point.
+    dense: Vec<f64>,
     /// Derivative (J) of the energy of each point by its density.
     pressure: Vec<f64>,
 }
@@ -70,8 +73,6 @@ pub(super) struct Points {
     modulus: Vec<f64>,
     /// Fraction of space at which its hair begins to press.
     onset: Vec<f64>,
-    /// Whether it is held in a braid.
-    braided: Vec<bool>,
 }
 
 /// What is read of a point for each of its neighbours, in one place of the memory.
@@ -104,15 +105,6 @@ impl Site {
     }
 }
 
-/// A point as a search for neighbours sees it.
-struct Candidate {
-    position: DVec3,
-    /// Half of the reach of the kernel and the margin (m).
-    reach: f64,
-    index: u32,
-    guide: u32,
-}
-
 /// Stiffness of a wisp's hair, as a share of that of curls, and the fraction of space at which it begins to press, from those at the
 /// arc length `s` (m). docs/theory.md (D5)
 fn hardness(thickness: &Thickness, s: f64) -> (f64, f64) {
@@ -132,7 +124,6 @@ impl Points {
             own: Vec::new(),
             modulus: Vec::new(),
             onset: Vec::new(),
-            braided: Vec::new(),
         };
         for (guide, strand) in strands.into_iter().enumerate() {
             let last = strand.positions.len();
@@ -147,12 +138,14 @@ impl Points {
                 let half = 0.5 * REACH * strand.thickness.packed(s);
                 points.guide.push(guide as u32);
                 points.length.push(length);
-                points.sites.push(Site { position, half_reach: half, volume: section * length });
+                // What is held in a braid presses on nothing, and nothing on it.
+                let is_in = |[from, to]: [f64; 2]| (from..=to).contains(&s);
+                let braided = strand.braided.is_some_and(is_in);
+                let volume = if braided { 0.0 } else { section * length };
+                points.sites.push(Site { position, half_reach: half, volume });
                 points.own.push(section * Kernel::new(2.0 * half).line());
                 points.modulus.push(share * modulus);
                 points.onset.push(onset);
-                let is_in = |[from, to]: [f64; 2]| (from..=to).contains(&s);
-                points.braided.push(strand.braided.is_some_and(is_in));
             }
         }
         points
@@ -172,9 +165,12 @@ impl Density {
         }
         let spacing = strands.iter().map(|strand| strand.spacing).collect();
         let points = Points::new(strands, stiffness / STIFFNESS_PER_MODULUS);
-        let (excess, pressure) = (vec![0.0; points.len()], vec![0.0; points.len()]);
-        let near = vec![Vec::new(); points.len()];
-        Self { starts, spacing, points, near, excess, pressure }
+        let (dense, pressure) = (vec![0.0; points.len()], vec![0.0; points.len()]);
+        let reaches: Vec<f64> = points.sites.iter().map(|site| site.half_reach).collect();
+        let positions: Vec<DVec3> = points.sites.iter().map(|site| site.position).collect();
+        let ranges = starts.windows(2).map(|w| w[0]..w[1]);
+        let sieve = Sieve::new(ranges.map(|range| (&positions[range.clone()], &reaches[range])));
+        Self { starts, spacing, points, sieve, near: NearLists::default(), dense, pressure }
     }
 
     /// The points of a guide.
@@ -185,67 +181,99 @@ impl Density {
     /// Moves the points of a guide. [`Self::measure`] has to follow.
     pub(crate) fn place(&mut self, guide: usize, positions: &[DVec3]) {
         let range = self.of_guide(guide);
-        for (site, position) in self.points.sites[range].iter_mut().zip(positions) {
-            site.position = *position;
+        for (k, &position) in range.clone().zip(positions) {
+            let site = &mut self.points.sites[k];
+            site.position = position;
+            self.sieve.place_point(k, position, site.half_reach);
         }
     }
 
-    /// Finds which points can come within reach while each guide moves by at most its margin (m).
-    pub(crate) fn update_neighbours(&mut self, margins: &[f64]) {
-        self.near = Vec::new();
-        let points = &self.points;
-        let reach = |k: usize| points.sites[k].half_reach + margins[points.guide[k] as usize];
-        let most = (0..points.len()).map(reach).fold(0.0, f64::max);
-        let positions: Vec<DVec3> = points.sites.iter().map(|site| site.position).collect();
-        // Cells of half the longest reach of a pair: two rings of them hold fewer points than one ring of wide cells.
-        let grid = Grid::new(&positions, most);
-        // In the order of cells, so that a row of them is read in one piece: half of the time of a step was spent here before.
-        let candidate = |&index: &u32| {
-            let k = index as usize;
-            let (position, guide) = (positions[k], points.guide[k]);
-            Candidate { position, reach: reach(k), index, guide }
-        };
-        let sorted: Vec<Candidate> = grid.order().iter().map(candidate).collect();
-        let (places, reaches): (Vec<DVec3>, Vec<f64>) =
-            sorted.iter().map(|candidate| (candidate.position, candidate.reach)).unzip();
-        let sieve = Sieve::new(std::iter::once((&places[..], &reaches[..])));
-        let near = |k: usize| -> Vec<u32> {
-            let mut found = Vec::new();
-            if points.braided[k] {
-                return found;
+    /// Finds which points can come within reach while each guide moves by at most its margin (m) from where it is now, of guides that
+    /// are looked at again, or from where it was when it last was.
+    pub(crate) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
+        let point = |k: usize| {
+            let (site, guide) = (&self.points.sites[k], self.points.guide[k]);
+            SearchPoint {
+                position: site.position,
+                reach: site.half_reach + margins[guide as usize],
+                guide,
+                index: (k - self.starts[guide as usize]) as u32,
             }
-            let (p, own, reach) = (positions[k], points.guide[k], reach(k));
-            let rows = grid.rows_within(p, reach + most);
-            let runs: Vec<Run> = rows.flat_map(|row| Run::of_guide(0, row)).collect();
-            sieve.for_each_close(SievePoint::new(p, reach), &runs, |_, i| {
-                let other = &sorted[i];
-                let within = reach + other.reach;
-                if other.guide != own
-                    && !points.braided[other.index as usize]
-                    && other.position.distance_squared(p) < within * within
-                {
-                    found.push(other.index);
-                }
-            });
-            found
         };
-        self.near = parallel::map(points.len(), near);
+        let points: Vec<SearchPoint> = (0..self.points.len()).map(point).collect();
+        self.near.update(&points, again);
+    }
+
+    /// Guides in groups of which no two can come near each other, taken in the given order.
+    pub(crate) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        self.near.groups(order)
+    }
+
+    /// Calls `close` with each point of another guide that is within reach of a point, and with some that hardly are not.
+    #[inline]
+    pub(super) fn for_each_close(&self, k: usize, mut close: impl FnMut(usize)) {
+        let guide = self.points.guide[k] as usize;
+        let site = &self.points.sites[k];
+        let near = self.near.of_guide(guide).of_point(k - self.starts[guide]);
+        let own = SievePoint::new(site.position, site.half_reach);
+        self.sieve.for_each_close(own, near, |run, l| close(self.starts[run.guide as usize] + l));
     }
 
     /// Measures how dense hair is at every point where it is now.
     pub(crate) fn measure(&mut self) {
-        let (points, near) = (&self.points, &self.near);
-        let excess = |k: usize| {
-            if points.braided[k] {
-                return 0.0;
-            }
+        let points = &self.points;
+        let dense = |k: usize| {
             let site = &points.sites[k];
-            let others = near[k].iter().map(|&l| site.density_of(&points.sites[l as usize]));
-            let dense: f64 = points.own[k] + others.sum::<f64>();
-            (dense - points.onset[k]).max(0.0)
+            let mut dense = points.own[k];
+            self.for_each_close(k, |l| dense += site.density_of(&points.sites[l]));
+            dense
         };
-        self.excess = parallel::map(points.len(), excess);
+        let of_guide = |guide: usize| self.of_guide(guide).map(dense).collect::<Vec<f64>>();
+        self.dense = parallel::map(self.starts.len() - 1, of_guide).concat();
         self.pressure = (0..self.points.len()).map(|k| self.by_density(k).0).collect();
+    }
+
+    /// Moves the points of one guide alone and measures what that changes; gives by how much the energy of all other points grows (J).
+    ///
+    /// What is added to a density and taken away again leaves a rounding error there until [`Self::measure`].
+    pub(crate) fn move_guide(&mut self, guide: usize, positions: &[DVec3]) -> f64 {
+        let first = self.starts[guide];
+        let mut growth = 0.0;
+        let mut close = Vec::new();
+        for (k, &position) in (first..).zip(positions) {
+            // 1. What it took of others where it was.
+            self.for_each_close(k, |l| close.push(l));
+            for l in close.drain(..) {
+                let taken = self.points.sites[l].density_of(&self.points.sites[k]);
+                growth += self.densify(l, -taken);
+            }
+            // 2. What it takes, and what others take of it, where it is.
+            self.points.sites[k].position = position;
+            self.sieve.place_point(k, position, self.points.sites[k].half_reach);
+            self.for_each_close(k, |l| close.push(l));
+            let mut dense = self.points.own[k];
+            for l in close.drain(..) {
+                let (own, other) = (&self.points.sites[k], &self.points.sites[l]);
+                dense += own.density_of(other);
+                growth += self.densify(l, other.density_of(own));
+            }
+            self.dense[k] = dense;
+            self.pressure[k] = self.by_density(k).0;
+        }
+        growth
+    }
+
+    /// Adds to the density at a point; gives by how much its energy grows (J).
+    fn densify(&mut self, k: usize, change: f64) -> f64 {
+        let before = self.energy(k);
+        self.dense[k] += change;
+        self.pressure[k] = self.by_density(k).0;
+        self.energy(k) - before
+    }
+
+    /// How much denser than at the onset hair is at a point; 0 where it is not.
+    pub(super) fn excess(&self, k: usize) -> f64 {
+        (self.dense[k] - self.points.onset[k]).max(0.0)
     }
 }
 
@@ -265,31 +293,31 @@ pub(super) struct Pair {
 impl Density {
     /// Energy of a point (J). docs/theory.md (D2)
     pub(super) fn energy(&self, k: usize) -> f64 {
-        self.points.modulus[k] * self.points.sites[k].volume * self.excess[k].powi(3)
+        self.points.modulus[k] * self.points.sites[k].volume * self.excess(k).powi(3)
     }
 
     /// First and second derivative of a point's energy by its density (J).
     #[inline]
     pub(super) fn by_density(&self, k: usize) -> (f64, f64) {
-        let x = self.excess[k];
+        let x = self.excess(k);
         let scale = self.points.modulus[k] * self.points.sites[k].volume;
         (3.0 * scale * x * x, 6.0 * scale * x)
     }
 
     /// Calls `pressed` with the pairs of a point that press on each other.
     #[inline]
-    pub(super) fn for_each_pair(&self, k: usize, mut pressed: impl FnMut(&Pair)) {
+    fn for_each_pair(&self, k: usize, mut pressed: impl FnMut(&Pair)) {
         let (site, own) = (&self.points.sites[k], self.pressure[k]);
-        for &l in &self.near[k] {
-            let (other, theirs) = (&self.points.sites[l as usize], self.pressure[l as usize]);
+        self.for_each_close(k, |l| {
+            let (other, theirs) = (&self.points.sites[l], self.pressure[l]);
             if own <= 0.0 && theirs <= 0.0 {
-                continue;
+                return;
             }
             let away = site.position - other.position;
             let distance = away.length();
             let (across, bend) = site.kernel(other).derivatives(distance);
             if across == 0.0 {
-                continue;
+                return;
             }
             // Each feels the volume of the other: E′_k V_l + E′_l V_k.
             let pressure = own * other.volume + theirs * site.volume;
@@ -300,13 +328,23 @@ impl Density {
             let along = if distance > 1e-9 { along } else { 0.0 };
             let stiff = if bend > 0.0 && square > 0.0 { pressure * bend / square } else { 0.0 };
             let across = pressure * across;
-            pressed(&Pair { other: l, slope, across, along, stiff });
-        }
+            pressed(&Pair { other: l as u32, slope, across, along, stiff });
+        });
     }
 
     /// Gradient (N) of the energy by a point, and the part of its Hessian (N/m) that is positive semidefinite: what its own
     /// density and that of others make of it, and pairs that stiffen.
     pub(super) fn derivatives(&self, k: usize) -> Option<(DVec3, DMat3)> {
+        self.derivatives_with(k, |_| ())
+    }
+
+    /// The same; calls `pressed` with the pairs.
+    #[inline]
+    pub(super) fn derivatives_with(
+        &self,
+        k: usize,
+        mut pressed: impl FnMut(&Pair),
+    ) -> Option<(DVec3, DMat3)> {
         let sites = &self.points.sites;
         let volume = sites[k].volume;
         let (own, own_bulk) = self.by_density(k);
@@ -319,6 +357,7 @@ impl Density {
             *force += pair.slope * (own * sites[other].volume + theirs * volume);
             *stiffness += outer(pair.slope, pair.slope) * (bulk * volume * volume + pair.stiff);
             gathered += pair.slope * sites[other].volume;
+            pressed(pair);
         });
         let (force, stiffness) = sum?;
         Some((force, stiffness + outer(gathered, gathered) * own_bulk))
@@ -345,7 +384,7 @@ mod tests {
     fn measured(strands: Vec<Strand>) -> Density {
         let guides = strands.len();
         let mut density = Density::new(strands, 2.0);
-        density.update_neighbours(&vec![1e-3; guides]);
+        density.update_neighbours(&vec![1e-3; guides], &vec![true; guides]);
         density.measure();
         density
     }
@@ -390,7 +429,7 @@ mod tests {
     fn the_gradient_is_the_derivative_of_the_energy_and_sums_to_zero() {
         let mut density = bundle();
         let gradient = gradient(&density);
-        assert!(density.excess.iter().filter(|x| **x > 0.1).count() > 20);
+        assert!((0..density.points.len()).filter(|&k| density.excess(k) > 0.1).count() > 20);
         let size = gradient.iter().map(|g| g.length()).sum::<f64>();
         // No force and no couple on the whole.
         let positions = density.points.sites.iter().map(|site| site.position);
@@ -424,6 +463,36 @@ mod tests {
             size += p.length();
         }
         assert!(error < 1e-4 * size, "{error} of {size}");
+    }
+
+    #[test]
+    fn one_guide_that_moves_alone_changes_what_a_measure_of_all_finds() {
+        let mut density = bundle();
+        let others = |density: &Density| -> f64 {
+            (0..density.points.len())
+                .filter(|k| !(36..48).contains(k))
+                .map(|k| density.energy(k))
+                .sum()
+        };
+        let before = others(&density);
+        // Across the bundle, and within the margin of the search.
+        let positions = density.points.sites[36..48].iter().map(|site| site.position);
+        let moved: Vec<DVec3> = positions.map(|p| p + DVec3::new(1e-4, 6e-4, -7e-4)).collect();
+        let growth = density.move_guide(3, &moved);
+        let (dense, pressure) = (density.dense.clone(), density.pressure.clone());
+        density.measure();
+        let expected = others(&density) - before;
+        assert!(expected.abs() > 1e-3 * before, "{expected}");
+        assert!((growth - expected).abs() < 1e-12 * before, "{growth} {expected}");
+        for (a, b) in dense.iter().zip(&density.dense) {
+            assert!((a - b).abs() < 1e-13 * b, "{a} {b}");
+        }
+        assert!(
+            pressure
+                .iter()
+                .zip(&density.pressure)
+                .all(|(a, b)| (a - b).abs() <= 1e-12 * b.max(1e-12))
+        );
     }
 
     #[test]
@@ -468,12 +537,12 @@ mod tests {
         let density = lattice(side, side);
         let k = middle(&density);
         let onset = density.points.onset[k];
-        assert!((density.excess[k] + onset - 3.1).abs() < 0.03, "{}", density.excess[k] + onset);
+        assert!((density.excess(k) + onset - 3.1).abs() < 0.03, "{}", density.excess(k) + onset);
         // The energy per volume of hair Ψ/φ = m (φ − φ₀)³ gives the pressure P = φ² d(Ψ/φ)/dφ: what it takes to bring one
         // side of the cell nearer.
         let per_length = |density: &Density| {
             let k = middle(density);
-            density.points.modulus[k] * section * density.excess[k].powi(3)
+            density.points.modulus[k] * section * density.excess(k).powi(3)
         };
         let h = 1e-3 * side;
         let force = (per_length(&lattice(side - h, side)) - per_length(&lattice(side + h, side)))

@@ -83,11 +83,11 @@ pub(super) struct Product {
 
 /// Damping of a guide's second variation that is not positive definite, as a fraction of its elastic stiffness: the first
 /// try, and the factor from one to the next. Chosen by trial, as in Newton's method for one rod.
-const FIRST_DAMPING: f64 = 0.3;
-const DAMPING_GROWTH: f64 = 4.0;
+pub(super) const FIRST_DAMPING: f64 = 0.3;
+pub(super) const DAMPING_GROWTH: f64 = 4.0;
 
 /// Damping above which numbers are too large for any step.
-const LARGEST_DAMPING: f64 = 1e12;
+pub(super) const LARGEST_DAMPING: f64 = 1e12;
 
 /// The factors of each guide's own second variation, damped where it is not positive definite: `M = diag(H_i + σ_i K/h)`.
 pub(super) struct Preconditioner<'a> {

@@ -6,6 +6,7 @@
 //! moves guides little, as long as no wisp snaps past another. docs/theory.md, "All guides at once"
 
 mod certificate;
+mod elimination;
 mod hessian;
 mod newton;
 mod others;

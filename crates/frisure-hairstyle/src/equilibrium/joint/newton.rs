@@ -5,6 +5,7 @@
 use frisure_progress::{Cancelled, StageCounter};
 use glam::DVec3;
 
+use super::elimination::{eliminate, far_from_rest};
 use super::hessian::{
     Controls, JointHessian, Preconditioner, add, add_scaled, dot, negative, zero,
 };
@@ -18,20 +19,24 @@ const MOST_CG: usize = 200;
 const FORCING: f64 = 1e-3;
 
 /// Armijo's constant, \[Nocedal & Wright\] §3.1.
-const ARMIJO: f64 = 1e-4;
+pub(super) const ARMIJO: f64 = 1e-4;
 
 /// Most trials of a step, each half as long as the one before. A guard.
-const TRIALS: usize = 12;
+pub(super) const TRIALS: usize = 12;
 
 /// Farthest (m) that a point of any guide moves in a step, to first order: less than the radius of most wisps, so that none jumps over
 /// another. Chosen; with 8 mm a quarter fewer steps are needed at times, and more wisps end in another minimum for a small change.
-const FARTHEST: f64 = 4e-3;
+pub(super) const FARTHEST: f64 = 4e-3;
 
 /// Farthest (m) that it moves in fact, where a step turns it far. Chosen: half as far again.
-const FARTHEST_TURNED: f64 = 6e-3;
+pub(super) const FARTHEST_TURNED: f64 = 6e-3;
+
+/// Most eliminations between two steps of all, and steps that have to be left for one: a slider that is dragged takes two. A guard: one is
+/// usual.
+const MOST_ROUNDS: usize = 3;
 
 /// Relative rounding error of the energy of the head: that of f64 times about a thousand for the sum over guides.
-const ENERGY_ROUNDING: f64 = 1e-13;
+pub(super) const ENERGY_ROUNDING: f64 = 1e-13;
 
 /// How a descent ended.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +59,8 @@ pub(super) fn minimise(
 ) -> Result<Descent, Cancelled> {
     let mut energy = state.energy();
     let mut steps = 0;
+    // Eliminations since the last step of all.
+    let mut rounds = 0;
     loop {
         stage.check()?;
         let hessian = state.hessian();
@@ -66,12 +73,23 @@ pub(super) fn minimise(
         let Some(preconditioner) = Preconditioner::new(&hessian) else {
             return Ok(Descent { steps, at_rest: false });
         };
+        // Of wisps in pairs which one lies on which is decided by the way there: all go it together.
+        if state.is_density() && rounds < MOST_ROUNDS && steps + MOST_ROUNDS < most {
+            let far = far_from_rest(state, &hessian, &preconditioner, &gradient);
+            if !far.is_empty() {
+                eliminate(state, &far, gradient.len());
+                energy = state.energy();
+                rounds += 1;
+                continue;
+            }
+        }
         let step = best_step(&hessian, &preconditioner, &gradient);
         match search(state, &gradient, step, energy) {
             Some(lowered) => energy = lowered,
             None => return Ok(Descent { steps, at_rest: false }),
         }
         steps += 1;
+        rounds = 0;
     }
 }
 

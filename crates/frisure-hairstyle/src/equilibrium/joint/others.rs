@@ -40,6 +40,20 @@ impl Others {
         }
     }
 
+    /// The same, where the coupling of all guides is known.
+    pub(super) fn around_with<'a>(
+        &'a self,
+        guide: usize,
+        coupling: &'a Coupling,
+    ) -> Box<dyn Field + 'a> {
+        match (self, coupling) {
+            (Self::Density(density), Coupling::Density(variation)) => {
+                Box::new(density.around_with(guide, variation))
+            }
+            _ => self.around(guide),
+        }
+    }
+
     /// The part of the energy that counts as the guide's: a sum over all guides counts it once.
     pub(super) fn shared(&self, guide: usize) -> Box<dyn Field + '_> {
         match self {
@@ -63,12 +77,40 @@ impl Others {
         }
     }
 
+    /// Moves the points (m) of one guide alone; gives by how much the energy of all others grows (J) besides what [`Self::around`] has.
+    pub(super) fn move_guide(&mut self, guide: usize, points: Vec<DVec3>) -> f64 {
+        match self {
+            Self::Pairs(pairs) => {
+                pairs.place(guide, points);
+                0.0
+            }
+            Self::Density(density) => density.move_guide(guide, &points),
+            Self::Apart => 0.0,
+        }
+    }
+
+    /// Guides in groups of which no two can come near each other, taken in the given order.
+    pub(super) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        match self {
+            Self::Pairs(pairs) => pairs.groups(order),
+            Self::Density(density) => density.groups(order),
+            Self::Apart => vec![order.to_vec()],
+        }
+    }
+
+    /// Measures what [`Self::move_guide`] left to be measured.
+    pub(super) fn measure(&mut self) {
+        if let Self::Density(density) = self {
+            density.measure();
+        }
+    }
+
     /// Finds what can touch while each guide moves by at most its margin (m), of guides that are looked at `again`.
     pub(super) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
         match self {
             Self::Pairs(pairs) => pairs.update_neighbours(margins, again),
             Self::Density(density) => {
-                density.update_neighbours(margins);
+                density.update_neighbours(margins, again);
                 density.measure();
             }
             Self::Apart => {}
@@ -96,7 +138,7 @@ impl Others {
         }
     }
 
-    /// Whether hair is a density: then neighbours are found for all guides at once.
+    /// Whether hair is a density.
     pub(super) fn is_density(&self) -> bool {
         matches!(self, Self::Density(_))
     }

@@ -2,7 +2,9 @@
 
 use frisure_rod::Equilibrium;
 use frisure_rod::derivatives::{DerivativeError, Sensitivity};
+use frisure_rod::minimise::SecondVariation;
 use frisure_rod::potential::Yielding;
+use glam::DVec3;
 
 use super::super::friction_solver::Hold;
 use super::super::wisp::{
@@ -28,6 +30,11 @@ const MOVES_PER_SEARCH: f64 = 1.2;
 /// Change of the limits of friction, relative to them, and excess of friction over its limit, at which they agree with where
 /// wisps are. Asked of a certificate: |f_t| ≤ 1.001 μ f_n.
 const AGREEMENT: f64 = 1e-3;
+
+/// Largest derivative by any control of a guide, relative to its moment scale EI/L + ρSgL².
+fn steepest(wisp: &Wisp<'_>, gradient: &[DVec3]) -> f64 {
+    gradient.iter().map(|v| v.length()).fold(0.0, f64::max) / wisp.moment_scale()
+}
 
 /// All guides of a head.
 pub(super) struct HeadState<'a> {
@@ -144,8 +151,7 @@ impl<'a> HeadState<'a> {
         if !used_up.contains(&true) {
             return;
         }
-        let all = self.others.is_density();
-        for i in (0..lengths.len()).filter(|&i| all || used_up[i]) {
+        for i in (0..lengths.len()).filter(|&i| used_up[i]) {
             self.reach[i] = (MOVES_PER_SEARCH * lengths[i]).max(LEAST_REACH);
             self.drift[i] = 0.0;
         }
@@ -191,10 +197,75 @@ impl<'a> HeadState<'a> {
 
     /// The second variation of that energy.
     pub(super) fn hessian(&self) -> JointHessian {
+        let coupling = self.others.coupling(self.wisps.len());
         let guides = parallel::map(self.wisps.len(), |i| {
-            self.wisps[i].second_variation(&*self.others.around(i), self.anchors[i].as_ref())
+            let around = self.others.around_with(i, &coupling);
+            self.wisps[i].second_variation(&*around, self.anchors[i].as_ref())
         });
-        JointHessian { guides, coupling: self.others.coupling(self.wisps.len()) }
+        JointHessian { guides, coupling }
+    }
+
+    /// Guides in groups of which no two can come near each other, taken in the given order.
+    pub(super) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        self.others.groups(order)
+    }
+
+    /// The second variation of the energy by one guide while all others hold still.
+    pub(super) fn variation_of(&self, guide: usize) -> SecondVariation {
+        let around = self.others.around(guide);
+        self.wisps[guide].second_variation(&*around, self.anchors[guide].as_ref())
+    }
+
+    /// A guide's own part of the energy (J).
+    pub(super) fn energy_of(&self, guide: usize) -> f64 {
+        self.wisps[guide].share(&*self.others.around(guide), self.anchors[guide].as_ref())
+    }
+
+    /// Largest derivative by any control of one guide, relative to its moment scale.
+    pub(super) fn relative_of(&self, guide: usize, gradient: &[DVec3]) -> f64 {
+        steepest(&self.wisps[guide], gradient)
+    }
+
+    /// Stiffness (N/m) of a tether of each node against which weight and elasticity move a guide by some millimetres.
+    pub(super) fn node_firmness(&self, guide: usize) -> f64 {
+        self.wisps[guide].node_firmness()
+    }
+
+    /// Largest distance (m) that a step moves a node of one guide.
+    pub(super) fn length_of(&self, guide: usize, step: &[DVec3]) -> f64 {
+        self.wisps[guide].length_of(step)
+    }
+
+    /// How far (m) a guide may move before its neighbours are searched again.
+    pub(super) fn room_of(&self, guide: usize) -> f64 {
+        self.reach[guide] - self.drift[guide]
+    }
+
+    pub(super) fn shape_of(&self, guide: usize) -> Settled {
+        self.wisps[guide].settled().clone()
+    }
+
+    /// Lets one guide go a fraction of a step from a given shape; gives by how much the energy of all others grows (J).
+    /// [`Self::measure`] has to follow.
+    pub(super) fn go_alone(
+        &mut self,
+        guide: usize,
+        from: &Settled,
+        step: &[DVec3],
+        fraction: f64,
+    ) -> f64 {
+        let points = self.wisps[guide].go(from, step, fraction);
+        self.others.move_guide(guide, points)
+    }
+
+    /// Counts a move (m) of one guide.
+    pub(super) fn moved_alone(&mut self, guide: usize, length: f64) {
+        self.drift[guide] += length;
+    }
+
+    /// Measures again where all guides are, after some moved alone.
+    pub(super) fn measure(&mut self) {
+        self.others.measure();
     }
 
     /// The parts of the derivatives of each guide.
@@ -231,10 +302,8 @@ impl<'a> HeadState<'a> {
 
     /// Largest derivative by any control, relative to the moment scale EI/L + ρSgL² of its guide.
     pub(super) fn relative(&self, gradient: &Controls) -> f64 {
-        let of_guide = |(wisp, g): (&Wisp<'_>, &Vec<glam::DVec3>)| {
-            g.iter().map(|v| v.length()).fold(0.0, f64::max) / wisp.moment_scale()
-        };
-        self.wisps.iter().zip(gradient).map(of_guide).fold(0.0, f64::max)
+        let guides = self.wisps.iter().zip(gradient);
+        guides.map(|(wisp, gradient)| steepest(wisp, gradient)).fold(0.0, f64::max)
     }
 
     /// The guides as they are, each certified to a relative gradient of `tolerance` while the others hold still.
