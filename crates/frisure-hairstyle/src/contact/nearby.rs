@@ -1,4 +1,5 @@
-//! Which points of hair are near each other, and stay the only ones that can be while guides move by some margin.
+//! Which points of hair are near each other, and stay the only ones that can be while guides move by some margin: neighbour lists
+//! (Verlet lists).
 //!
 //! A search is made anew only for guides that may have moved by more than their margin; what it finds is entered with both guides.
 
@@ -14,13 +15,13 @@ pub(super) struct NearLists {
     of: Vec<NearList>,
 }
 
-/// What the points of one guide may touch.
+/// What the points of one guide are near to.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NearList {
-    /// Where the touches of each point begin; one more than points.
+    /// Where the runs of each point begin; one more than points.
     starts: Vec<u32>,
     /// Guides pass each other along a piece, not at a point: runs of points take a tenth of a list of them.
-    touches: Vec<Run>,
+    runs: Vec<Run>,
     /// The guides among them, in order.
     guides: Vec<u32>,
 }
@@ -80,7 +81,7 @@ impl NearLists {
     }
 }
 
-/// Own points, with another guide that each of them may touch, and which point of that one.
+/// Own points, with another guide that each of them is near to, and which point of that one.
 type Met = (Run, u32);
 
 /// A point of a guide while neighbours are looked for.
@@ -147,7 +148,7 @@ impl GridLevel {
     }
 }
 
-/// Guide and point of what each of a guide's points may touch, in the order of `met`: where those of each point begin, and all.
+/// Guide and point of what each of a guide's points is near to, in the order of `met`: where those of each point begin, and all.
 fn by_point(met: &[Met], points: usize) -> (Vec<usize>, Vec<(u32, u32)>) {
     // Counting sort: there are many for each point.
     let mut starts = vec![0; points + 1];
@@ -170,7 +171,7 @@ fn by_point(met: &[Met], points: usize) -> (Vec<usize>, Vec<(u32, u32)>) {
 }
 
 impl NearList {
-    /// What the points `own` of one guide may touch.
+    /// What the points `own` of one guide are near to.
     fn search(own: &[SearchPoint], levels: &[GridLevel]) -> Self {
         let mut near = Self::default();
         let mut rows = Vec::new();
@@ -180,8 +181,8 @@ impl NearList {
                 level.for_each_near(p, &mut rows, |q| {
                     let reach = p.reach + q.reach;
                     // Radii and margins of both: neither can come to touch the other before its margin is used up.
-                    let touches = q.position.distance_squared(p.position) < reach * reach;
-                    if touches && q.guide != p.guide {
+                    let is_near = q.position.distance_squared(p.position) < reach * reach;
+                    if is_near && q.guide != p.guide {
                         near.add(Run { guide: q.guide, first: q.index, end: q.index + 1 });
                     }
                 });
@@ -192,13 +193,13 @@ impl NearList {
 
     /// What is added from now on is near the next point.
     fn begin_point(&mut self) {
-        self.starts.push(self.touches.len() as u32);
+        self.starts.push(self.runs.len() as u32);
     }
 
-    /// Adds to what the last point may touch.
+    /// Adds to what the last point is near to.
     fn add(&mut self, run: Run) {
-        let begins = self.starts.last().is_none_or(|&start| self.touches.len() == start as usize);
-        match self.touches.last_mut() {
+        let begins = self.starts.last().is_none_or(|&start| self.runs.len() == start as usize);
+        match self.runs.last_mut() {
             Some(last)
                 if !begins
                     && last.guide == run.guide
@@ -207,16 +208,16 @@ impl NearList {
             {
                 last.end = run.end;
             }
-            _ => self.touches.push(run),
+            _ => self.runs.push(run),
         }
     }
 
     fn finish(mut self) -> Self {
         self.begin_point();
-        self.touches.shrink_to_fit();
-        let count = self.touches.iter().map(|run| run.guide as usize + 1).max().unwrap_or(0);
+        self.runs.shrink_to_fit();
+        let count = self.runs.iter().map(|run| run.guide as usize + 1).max().unwrap_or(0);
         let mut touched = vec![false; count];
-        for run in &self.touches {
+        for run in &self.runs {
             touched[run.guide as usize] = true;
         }
         self.guides = (0..count as u32).filter(|&guide| touched[guide as usize]).collect();
@@ -233,17 +234,17 @@ impl NearList {
         self.starts.len().saturating_sub(1)
     }
 
-    /// What point `k` may touch; the order is that of the sums over it.
+    /// What point `k` is near to; the order is that of the sums over it.
     pub(super) fn of_point(&self, k: usize) -> &[Run] {
-        &self.touches[self.starts[k] as usize..self.starts[k + 1] as usize]
+        &self.runs[self.starts[k] as usize..self.starts[k + 1] as usize]
     }
 
-    /// Each point with what it may touch.
+    /// Each point with what it is near to.
     pub(super) fn iter(&self) -> impl Iterator<Item = (u32, &Run)> {
         (0..self.points()).flat_map(|k| self.of_point(k).iter().map(move |run| (k as u32, run)))
     }
 
-    /// The same, but for what it may touch of those guides that were looked at again.
+    /// The same, but for what is near of those guides that were looked at again.
     fn amended(self, met: &[Met], again: &[bool]) -> Self {
         if met.is_empty() && !self.guides.iter().any(|&g| again[g as usize]) {
             return self;

@@ -44,6 +44,15 @@ impl Pairs {
         self.starts.push(self.others.len() as u32);
     }
 
+    fn finish(mut self) -> Self {
+        self.begin_point();
+        // Where many guides press on each other these lists are the largest part of the memory.
+        self.others.shrink_to_fit();
+        self.slopes.shrink_to_fit();
+        self.pressed.shrink_to_fit();
+        self
+    }
+
     /// The others of a point of the guide, their slopes and how they are pressed.
     fn of_point(&self, i: usize) -> impl Iterator<Item = (usize, DVec3, [f64; 2])> + '_ {
         let range = self.starts[i] as usize..self.starts[i + 1] as usize;
@@ -65,8 +74,7 @@ impl Density {
                 felt.then(|| self.derivatives_with(k, |pair| pairs.push(pair))).flatten()
             });
             let derivatives: Vec<_> = derivatives.collect();
-            pairs.begin_point();
-            (pairs, derivatives)
+            (pairs.finish(), derivatives)
         };
         let (pairs, derivatives): (Vec<_>, Vec<_>) =
             parallel::map(self.starts.len() - 1, of_guide).into_iter().unzip();

@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::hessian::{
     Controls, DAMPING_GROWTH, FIRST_DAMPING, JointHessian, LARGEST_DAMPING, Preconditioner,
 };
-use super::newton::{ARMIJO, ENERGY_ROUNDING, FARTHEST, FARTHEST_TURNED, TRIALS};
+use super::line_search::{FARTHEST, FARTHEST_TURNED, TRIALS, accepts};
 use super::state::HeadState;
 use crate::parallel;
 
@@ -122,12 +122,11 @@ impl Step {
     fn take(&self, state: &mut HeadState<'_>, guide: usize) -> bool {
         let from = state.shape_of(guide);
         let energy = state.energy_of(guide);
-        let noise = ENERGY_ROUNDING * energy.abs();
         let (mut fraction, mut growth) = (1.0, 0.0);
         for _ in 0..TRIALS {
             growth += state.go_alone(guide, &from, &self.way, fraction);
             let found = state.energy_of(guide) + growth;
-            if found <= energy + ARMIJO * self.slope * fraction + noise {
+            if accepts(energy, found, -self.slope * fraction) {
                 state.moved_alone(guide, fraction * self.length);
                 return true;
             }

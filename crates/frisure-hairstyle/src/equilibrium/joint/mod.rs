@@ -8,6 +8,7 @@
 mod certificate;
 mod elimination;
 mod hessian;
+mod line_search;
 mod newton;
 mod others;
 mod sensitivity;

@@ -9,6 +9,7 @@ use super::elimination::{eliminate, far_from_rest};
 use super::hessian::{
     Controls, JointHessian, Preconditioner, add, add_scaled, dot, negative, zero,
 };
+use super::line_search::{FARTHEST, FARTHEST_TURNED, TRIALS, accepts};
 use super::state::HeadState;
 
 /// Most iterations of conjugate gradients in a step: a guard.
@@ -18,25 +19,9 @@ const MOST_CG: usize = 200;
 /// by trial: with 1e-2 a third more steps are not positive definite.
 const FORCING: f64 = 1e-3;
 
-/// Armijo's constant, \[Nocedal & Wright\] §3.1.
-pub(super) const ARMIJO: f64 = 1e-4;
-
-/// Most trials of a step, each half as long as the one before. A guard.
-pub(super) const TRIALS: usize = 12;
-
-/// Farthest (m) that a point of any guide moves in a step, to first order: less than the radius of most wisps, so that none jumps over
-/// another. Chosen; with 8 mm a quarter fewer steps are needed at times, and more wisps end in another minimum for a small change.
-pub(super) const FARTHEST: f64 = 4e-3;
-
-/// Farthest (m) that it moves in fact, where a step turns it far. Chosen: half as far again.
-pub(super) const FARTHEST_TURNED: f64 = 6e-3;
-
 /// Most eliminations between two steps of all, and steps that have to be left for one: a slider that is dragged takes two. A guard: one is
 /// usual.
 const MOST_ROUNDS: usize = 3;
-
-/// Relative rounding error of the energy of the head: that of f64 times about a thousand for the sum over guides.
-pub(super) const ENERGY_ROUNDING: f64 = 1e-13;
 
 /// How a descent ended.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +62,9 @@ pub(super) fn minimise(
         if state.is_density() && rounds < MOST_ROUNDS && steps + MOST_ROUNDS < most {
             let far = far_from_rest(state, &hessian, &preconditioner, &gradient);
             if !far.is_empty() {
+                // Two of them at a time would be most of the memory.
+                drop(preconditioner);
+                drop(hessian);
                 eliminate(state, &far, gradient.len());
                 energy = state.energy();
                 rounds += 1;
@@ -167,16 +155,13 @@ fn search(
     }
     let slope = dot(gradient, &step);
     state.make_room(&lengths);
-    // 2. Halved until Armijo's condition holds; where the decrease drowns in rounding the gradient decides.
+    // 2. Halved until it is good enough.
     let from = state.shapes();
-    let noise = ENERGY_ROUNDING * energy.abs();
     let mut fraction = 1.0;
     for _ in 0..TRIALS {
         state.go(&from, &step, fraction);
         let lowered = state.energy();
-        let decrease = -slope * fraction;
-        if lowered <= energy - ARMIJO * decrease || (decrease < noise && lowered <= energy + noise)
-        {
+        if accepts(energy, lowered, -slope * fraction) {
             state.moved(&lengths, fraction);
             return Some(lowered);
         }
