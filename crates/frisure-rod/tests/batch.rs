@@ -196,3 +196,100 @@ fn what_hardly_bends_but_twists_comes_to_rest() {
         assert!(gap < 1e-5, "{i}: {gap}");
     }
 }
+
+/// Random hair: from short to long, from straight to coiled, in all directions.
+fn random_hair(count: usize) -> Vec<Rod> {
+    let mut random = SplitMix64(7);
+    let mut draw = || {
+        let radius = random.decades(1.5e-3, 0.1);
+        Rod::new(RodSpec {
+            length: random.decades(0.03, 0.6),
+            section: Section::from_diameter(
+                random.between(50e-6, 100e-6),
+                random.between(1.0, 2.0),
+            )
+            .unwrap(),
+            material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
+            torsion: TorsionConstant::SaintVenant,
+            natural: NaturalStrain::helix(radius, radius * random.decades(0.3, 20.0)).unwrap(),
+            root: Root::from_tangent(DVec3::ZERO, random.direction(), random.direction()).unwrap(),
+            load: Load::down(9.81),
+        })
+        .unwrap()
+    };
+    (0..count).map(|_| draw()).collect()
+}
+
+/// The largest distance (m) of the nodes of each rod from the same of a finer division.
+fn true_errors(rods: &[Rod], elements: usize) -> Vec<f64> {
+    let fine = 512;
+    let solve = |elements| Batch { elements, ..Batch::default() }.solve(rods).positions(rods);
+    let (coarse, exact) = (solve(elements), solve(fine));
+    let pairs = coarse.chunks(elements + 1).zip(exact.chunks(fine + 1));
+    pairs
+        .map(|(coarse, exact)| {
+            let exact = exact.iter().step_by(fine / elements);
+            coarse.iter().zip(exact).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+        })
+        .collect()
+}
+
+#[test]
+fn errors_are_at_most_as_estimated_and_not_much_less() {
+    let rods = random_hair(1000);
+    for elements in [8, 16, 32] {
+        let batch = Batch { elements, ..Batch::default() };
+        let estimates = batch.errors(&rods, &batch.solve(&rods));
+        let mut shares: Vec<f64> = true_errors(&rods, elements)
+            .iter()
+            .zip(&estimates)
+            .filter(|(_, estimate)| estimate.is_finite())
+            .map(|(error, estimate)| error / estimate)
+            .collect();
+        shares.sort_by(f64::total_cmp);
+        assert!(shares.len() > 700, "{elements} elements: {} have an estimate", shares.len());
+        let share_at = |part: f64| shares[(part * (shares.len() - 1) as f64) as usize];
+        assert!(share_at(0.98) < 1.0, "{elements} elements: {}", share_at(0.98));
+        assert!(share_at(0.50) > 0.25, "{elements} elements: {}", share_at(0.50));
+    }
+}
+
+#[test]
+fn no_error_is_estimated_where_divisions_say_nothing() {
+    let rods = random_hair(300);
+    let odd = Batch::default();
+    let errors = odd.errors(&rods, &odd.solve(&rods));
+    assert!(errors.iter().all(|error| error.is_infinite()), "an odd number of elements");
+    // Elements that turn by more than half a turn with the curl.
+    let few = Batch { elements: 8, ..odd };
+    let errors = few.errors(&rods, &few.solve(&rods));
+    for (rod, error) in rods.iter().zip(errors) {
+        let turn = rod.natural().at(0.0).length() * rod.length() / 8.0;
+        assert_eq!(error.is_infinite(), turn > std::f64::consts::PI, "a turn of {turn}");
+    }
+}
+
+#[test]
+fn waves_that_all_divisions_leave_out_are_in_the_error() {
+    // 64 whole waves: each half of an element, of 8 as of 16 and 4, has a mean of nothing.
+    let knots = (0..=64 * 8).map(|k| {
+        let s = f64::from(k) / (64.0 * 8.0);
+        (0.1 * s, DVec3::X * 900.0 * (64.0 * std::f64::consts::TAU * s).sin())
+    });
+    let natural = NaturalStrain::Varying(StrainProfile::new(knots.collect()).unwrap());
+    let rod = Rod::new(RodSpec {
+        length: 0.1,
+        section: Section::from_diameter(70e-6, 1.4).unwrap(),
+        material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
+        torsion: TorsionConstant::SaintVenant,
+        natural,
+        root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).unwrap(),
+        load: Load::down(9.81),
+    })
+    .unwrap();
+    let rods = [rod];
+    let error = true_errors(&rods, 16)[0];
+    let batch = Batch { elements: 16, ..Batch::default() };
+    let estimate = batch.errors(&rods, &batch.solve(&rods))[0];
+    assert!(error > 1e-4 && estimate > error, "{estimate} m of {error} m");
+}

@@ -145,7 +145,8 @@ class Settled:
       (ρSgL³/EI with the smaller EI), whose shapes rounding decides.
     - `gradient_norm` (H,): largest derivative of the energy by a turn, as a fraction of EI/L + ρSgL² (N m).
     - `iterations` (H,) uint32: iterations of the solver.
-    - `error` (H,), m: estimated largest error of a node from the division into elements; None without `error=True`.
+    - `error` (H,), m: estimated largest error of a node from the division into elements, mostly one and a half to four times as large as the error itself,
+      infinite where there is no estimate; None without `error=True`.
     - `eigenvalue` (H,), without unit: the smallest quotient of the second variation of the whole energy over that of the elastic energy, along
       all changes of shape: 1 without weight, 0 where stability is lost, and negative at a saddle; NaN for a
       rod that is not at rest. None without `eigenvalue=True`.
@@ -531,8 +532,9 @@ def settle(
       falls with the square of their number.
     - `tolerance`: the `gradient_norm` at which a rod is at rest, at most 1e-2. `precision="single"` iterates in single precision first,
       to the same result within the tolerance.
-    - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements (too little where few elements
-      have another equilibrium); `frames=True` adds the frames there.
+    - `points=False` leaves out the nodes; `error=True` estimates their error from a half and, where it divides, a quarter as many elements, which must be
+      even: the estimate is infinite for rods that are not stable and where an element turns by more than half a turn with the natural
+      curl, and does not know of other equilibria that only more elements have; `frames=True` adds the frames there.
     - `eigenvalue=True` adds the smallest eigenvalue of each rod; this takes three to four times as long as the rest.
     - `derivatives=True` keeps the rods for `Settled.vjp` and `Settled.jvp`, and brings them to rest to 1e-10 at least.
 

@@ -34,7 +34,7 @@ pub(crate) struct Options {
     single: bool,
     /// Whether the nodes are wanted.
     points: bool,
-    /// Whether the error of the nodes is estimated, for which the rods are solved with half as many elements, too.
+    /// Whether the error of the nodes is estimated, for which the rods are solved with fewer elements, too.
     error: bool,
     /// Whether the frames of the nodes are wanted.
     frames: bool,
@@ -144,7 +144,7 @@ impl Options {
         }
         self.put_nodes(rods, &found, rest);
         if self.error {
-            self.estimate_error(rods, &found, rest);
+            rest.error.copy_from_slice(&self.batch().errors(rods, &found));
         }
         found
     }
@@ -163,20 +163,6 @@ impl Options {
             }
         } else if self.points {
             found.put_positions(rods, points);
-        }
-    }
-
-    /// Estimates the error of the nodes from half as many elements.
-    fn estimate_error(&self, rods: &[Rod], found: &BatchSolution, rest: &mut ChunkOfRest<'_>) {
-        let half = Batch { elements: self.elements / 2, ..self.batch() };
-        let coarse = half.solve(rods).positions(rods);
-        let fine = found.positions(rods);
-        let both = fine.chunks_exact(self.elements + 1).zip(coarse.chunks_exact(half.elements + 1));
-        for (error, (fine, coarse)) in rest.error.iter_mut().zip(both) {
-            let gaps = coarse.iter().zip(fine.iter().step_by(2));
-            // The first term of the error of jointed elements, which is of second order in their length
-            // (docs/theory.md, "Extrapolation, accuracy and the estimate of error").
-            *error = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
         }
     }
 }

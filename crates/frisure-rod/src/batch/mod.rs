@@ -38,7 +38,7 @@
 //! The files in the order of the computation: `solver` (options, precision), `newton` (damping, rods through the lanes),
 //! `division` (a rod into joints), `weight_lanes` and `contact_lanes` (rods into lanes), `weight_sweep` and
 //! `contact_sweep` (backward and forward over the joints), `elimination` (one joint: energy, gradient, Hessian block),
-//! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes)
+//! `rotation`, `linear`, `lanes` (the numbers). Errors of the division: `error`. Derivatives: `gradient` (rods into lanes)
 //! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`; `eigenvalue`. The shapes of all: `nodes`. One
 //! rod by itself: `joint_chain`, `chain_factor`.
 
@@ -51,6 +51,7 @@ mod contact_term;
 mod division;
 mod eigenvalue;
 mod elimination;
+mod error;
 mod gradient;
 mod joint_chain;
 mod lanes;
