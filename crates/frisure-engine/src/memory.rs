@@ -221,6 +221,26 @@ pub fn check_picture(work: Work) -> Result<(), Error> {
     check_within(|work| PROGRAM + picture(work), 0.0, work, available())
 }
 
+/// The same of the atlas of cards with so many pixels across and down, whose maps take about what a preview of that size does.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_atlas(texture: usize) -> Result<(), Error> {
+    let needed = |texture: usize| PROGRAM + picture(Work::Preview(texture * texture));
+    let Some(room) = available().filter(|&room| needed(texture) > room as f64) else {
+        return Ok(());
+    };
+    let smaller = std::iter::successors(Some(texture), |texture| Some(texture / 2));
+    let fits =
+        smaller.take_while(|texture| *texture > 0).find(|&texture| needed(texture) <= room as f64);
+    let hint = match fits {
+        Some(texture) => format!("`--texture-size {texture}` has room"),
+        None => "have more memory free".to_owned(),
+    };
+    let (needed, room) = (amount(needed(texture)), amount(room as f64));
+    Err(Error::invalid(format!("it takes about {needed} of memory, and {room} are free"), &hint))
+}
+
 /// A point of a hair that is read and written anew (bytes). Measured with 40 000 hairs between 100 and 400 points: 50.
 pub const CONVERTED_POINT: f64 = 60.0;
 

@@ -57,9 +57,14 @@ impl Default for Known {
     }
 }
 
+/// A number for a person: whole ones without a point, large and small ones with an exponent.
+fn plain(value: f64) -> String {
+    format!("{value:?}").trim_end_matches(".0").to_owned()
+}
+
 /// A number that cannot be known of a fibre.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{quantity} is {value:?}; it must be {allowed}")]
+#[error("{quantity} is {}; it must be {allowed}", plain(*value))]
 pub struct KnownError {
     /// The name of the number.
     pub quantity: &'static str,

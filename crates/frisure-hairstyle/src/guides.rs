@@ -94,11 +94,20 @@ pub(crate) fn covered(
     Guide { root, region, rod, thickness, layer, bed, pull, firmness, hold, friction, curl, share }
 }
 
+/// Least factor on the radii of wisps that counts: a wisp of a centimetre has ten nanometres. Chosen.
+const LEAST_VOLUME: f64 = 1e-6;
+
+/// The factor on the radii of wisps. What is thinner than the least touches nothing, and its square would leave the range of numbers.
+fn volume(spec: &HairstyleSpec) -> f64 {
+    let given = spec.contact.volume;
+    if given < LEAST_VOLUME { 0.0 } else { given }
+}
+
 /// Cross-section of hair per area of skin, in the middle of a guide.
 fn cover(spec: &HairstyleSpec, thickness: &Thickness, rod: &Rod) -> f64 {
     // ν A, docs/theory.md, "Hair against hair: layers and wisps".
     let taken = thickness.area_per_hair(0.5 * rod.length());
-    spec.contact.volume * spec.implantation.density * taken
+    volume(spec) * spec.implantation.density * taken
 }
 
 impl Guide {
@@ -117,7 +126,7 @@ impl Guide {
         let slope = cover(spec, &thickness, dry);
         Self {
             rod,
-            thickness: thickness.scaled(spec.contact.volume * packed),
+            thickness: thickness.scaled(volume(spec) * packed),
             layer: self.layer.with_slope(slope).scaled(packed),
             ..self.clone()
         }
@@ -130,7 +139,7 @@ fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
     let patch = scalp / spec.wisps.count as f64;
     let hairs = spec.implantation.density * patch;
     let spread = spec.wisps.fuzziness * spec.curl.variation_between;
-    Thickness::new(rod, spec.curl.strain, hairs, patch, spread, spec.contact.volume)
+    Thickness::new(rod, spec.curl.strain, hairs, patch, spread, volume(spec))
 }
 
 /// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use frisure_hairstyle::styling::{Operation, StyleError};
-use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec, MOST_ELEMENTS, Range, number};
+use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec, MOST_ELEMENTS, Range};
 use frisure_rod::{InvalidQuantity, NaturalStrain, Options, Resolution, Rod, RodSpec, Root};
 use glam::DVec3;
 
@@ -25,16 +25,15 @@ const WIDEST_ELEMENT: f64 = FRAC_PI_2;
 /// Lengths of one hair (m). Chosen: beyond, a unit was mistaken; the smallest and largest numbers leave their range as squares and cubes.
 const ONE_HAIR: Range = Range::new("hair.length", 1e-6, 100.0, "between 1 um and 100 m");
 
-/// The numbers of a scene whose range is the same for one hair and for a head; [`Rod`] checks the others.
-const NUMBERS_OF_ONE_HAIR: [&str; 8] = [
-    "equilibrium.tolerance",
-    "gravity",
-    "pose.pitch",
-    "pose.roll",
-    "wind.speed",
-    "wind.azimuth",
-    "wind.elevation",
-    "wind.exposure",
+/// The numbers of a scene that one hair may have more of than a head; [`Rod`] checks them.
+const WIDER_FOR_ONE_HAIR: [&str; 7] = [
+    "hair.length",
+    "hair.fibre.diameter",
+    "hair.fibre.youngs_modulus",
+    "hair.fibre.shear_modulus",
+    "hair.fibre.density",
+    "hair.curl",
+    "equilibrium.elements",
 ];
 
 impl Scene {
@@ -122,16 +121,11 @@ impl Scene {
         })
     }
 
-    /// Refuses what one hair is not computed with, in wider ranges than a head has.
+    /// Refuses lengths that one hair is not computed with, and what no scene may have, also of what one hair does not need.
     fn check_one_hair(&self) -> Result<(), SceneError> {
         let spec = &self.spec;
         ONE_HAIR.check(spec.length.mean).map_err(|e| self.spec_error(&e))?;
-        for key in NUMBERS_OF_ONE_HAIR {
-            let number = number(key).expect("it is a number of a head");
-            let value = number.get(spec).expect("it has a field of its own");
-            number.range.check(value).map_err(|e| self.spec_error(&e))?;
-        }
-        Ok(())
+        spec.check_except(&WIDER_FOR_ONE_HAIR).map_err(|e| self.spec_error(&e))
     }
 
     /// The error about the value of `key`, such as a mesh at `head.mesh` that is no head; `hint` may be empty.

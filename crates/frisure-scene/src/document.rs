@@ -110,7 +110,7 @@ impl<'a> Document<'a> {
         table.get(name)
     }
 
-    /// Whether a key is given; a list without items is not.
+    /// Whether a key is given; a list of tables without items is not.
     pub(crate) fn has(&self, path: &str) -> bool {
         self.value(path).is_some_and(|value| value.as_array().is_none_or(|list| !list.is_empty()))
     }
@@ -173,7 +173,7 @@ impl<'a> Document<'a> {
 
     /// The first of some keys in the text that is given.
     pub(crate) fn first<'p>(&self, paths: &[&'p str]) -> Option<&'p str> {
-        let given = paths.iter().filter(|path| self.has(path)).copied();
+        let given = paths.iter().filter(|path| self.value(path).is_some()).copied();
         given.min_by_key(|path| self.span(path).start)
     }
 

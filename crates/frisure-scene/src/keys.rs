@@ -124,7 +124,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Natural curl, the shape without weight. It is said in one way: `radius` and `pitch`; or
         /// strains; or, for one hair, strains `along` it.
         "hair.curl" => table();
-        /// Radius of the natural helix; more than 0, at most 100 m, at least 0.05 mm on a head.
+        /// Radius of the natural helix; more than 0, at most 100 m. On a head the strain, 1/`radius` at most, may be 20 000 rad/m.
         "hair.curl.radius" => number::<Length>().bounds(0.0, 100.0)
             .slider(Panel::Curl, "Curl radius", MM, (0.5, 200.0), 1, "Radius of the curl that a hair would have without weight.")
             .logarithmic()
@@ -448,9 +448,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "equilibrium" => table();
         /// Number of elements per hair; 1 to 10000, at most 1000 on a head.
         "equilibrium.elements" => number::<Count>().bounds(1.0, 10_000.0);
-        /// Instead of `elements`: as many as it takes to be this near to the exact shape; more than 0.
+        /// Instead of `elements`: as many as it takes to be this near to the exact shape; {}.
         /// Default 0.5 mm.
-        "equilibrium.accuracy" => number::<Length>().bounds(0.0, f64::INFINITY);
+        "equilibrium.accuracy" => number::<Length>().range(f64::MIN_POSITIVE, 1.0, "greater than zero, at most 1 m");
         /// Largest gradient of a guide, relative to the moment of its weight, at which wisps in contact count as at rest;
         /// {}. Default 0.03, a tenth of what friction between hairs would hold.
         "equilibrium.tolerance" => number::<Ratio>();
@@ -553,8 +553,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Where the picture is taken from. All of the hair and the head is always in it, though not
         /// the shoulders.
         "camera" => table();
-        /// Around the head: 0 faces it, 90 deg sees its left side, -90 deg its right. Default 30 deg.
-        "camera.azimuth" => number::<Angle>().field(field!(camera.azimuth));
+        /// Around the head: 0 faces it, 90 deg sees its left side, -90 deg its right; {}. Default 30 deg.
+        "camera.azimuth" => number::<Angle>().range(-20.0 * PI, 20.0 * PI, "at most ten turns")
+            .field(field!(camera.azimuth));
         /// Above the horizon; {}. Default 5 deg.
         "camera.elevation" => number::<Angle>().range(-85.0 * DEG, 85.0 * DEG, "between -85 and 85 deg")
             .field(field!(camera.elevation));

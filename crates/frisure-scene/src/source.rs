@@ -7,6 +7,9 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, SceneError, ValueError};
 
+/// Most commas in a text. Chosen: two polygons of the most corners are drawn with 400 000, and so many items are built in half a second.
+const MAX_COMMAS: usize = 500_000;
+
 /// The text of a scene with its name, for errors with positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Source {
@@ -24,7 +27,18 @@ impl Source {
 
     /// The document, with the place of each key and value.
     pub(crate) fn document(&self) -> Result<Spanned<DeTable<'_>>, SceneError> {
+        self.check_commas()?;
         DeTable::parse(&self.text).map_err(|e| self.syntax(&e))
+    }
+
+    /// Refuses a text with so many items in lists that it would take long to build them, only to refuse the list.
+    fn check_commas(&self) -> Result<(), SceneError> {
+        // Bytes: a comma is never a part of another letter.
+        let mut commas = self.text.bytes().enumerate().filter(|(_, byte)| *byte == b',');
+        let Some((byte, _)) = commas.nth(MAX_COMMAS) else { return Ok(()) };
+        let problem = format!("more than {MAX_COMMAS} commas: no list of a scene is so long");
+        let hint = "leave out what is listed too often";
+        Err(Diagnostic::new(problem).hint(hint).at(self, byte..byte + 1))
     }
 
     /// An error of the TOML reader; `key` is unknown then.

@@ -700,3 +700,24 @@ fn faults_of_partings_and_regions_name_their_place() {
         assert!(f.to_string().contains(words), "{f}");
     }
 }
+
+#[test]
+fn lists_that_no_scene_has_are_refused_before_their_items_are_built() {
+    for list in ["[light]\nlamp = [", "[hair]\ncurl.along = [", "[wrong]\nlist = ["] {
+        let f = diagnostic(&format!("{list}{}]", "{},".repeat(600_000)));
+        assert_eq!(f.line, 2, "{f}");
+        assert!(f.to_string().contains("more than 500000 commas"), "{f}");
+    }
+}
+
+#[test]
+fn a_list_without_items_is_no_value() {
+    for (text, key) in [
+        ("[head]\nturn = []", "head.turn"),
+        ("[head]\nscalp_mask = []", "head.scalp_mask"),
+        ("[groom]\nup = []", "groom.up"),
+    ] {
+        let f = diagnostic(text);
+        assert_eq!((f.line, f.key.as_str()), (2, key), "{f}");
+    }
+}

@@ -9,7 +9,7 @@ use frisure::formats::cards::{self as files, CardsFileError};
 use frisure::formats::groom::{Format, Groom};
 use frisure::hairstyle::StrandOptions;
 use frisure::progress::Progress;
-use frisure_engine::memory::{self, Work};
+use frisure_engine::memory;
 use frisure_engine::{Error, Quality, Runner, input_files, stage_count};
 
 use super::{read_groom, read_scene};
@@ -21,9 +21,8 @@ use crate::{console, interrupt, outputs};
 /// Reads the groom or predicts the scene, makes its cards and writes them.
 pub(crate) fn run(arguments: &args::Cards, quiet: bool) -> Result<ExitStatus, Error> {
     let written = paths(arguments)?;
-    // A picture of this size takes about what the maps of the atlas do.
     let texture = arguments.texture_size;
-    memory::check_picture(Work::Preview(texture * texture))?;
+    memory::check_atlas(texture)?;
     let progress = Bar::new(quiet);
     let groom = groom(arguments, &written, &progress)?;
     let strands = groom.strands();

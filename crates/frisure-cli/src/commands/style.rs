@@ -30,6 +30,8 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
         console::say(&list(scene.steps()))?;
         return Ok(ExitStatus::Success);
     }
+    // Steps of a scene that cannot be predicted would be lost in the error about it.
+    scene.hairstyle_spec()?;
     let read = |step: &String| parse_step(STEP, step.as_str());
     let steps = arguments.steps.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let before = text;

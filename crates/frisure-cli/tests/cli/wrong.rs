@@ -114,6 +114,17 @@ fn commands_check_what_they_use() {
         assert_eq!(ran.code, Some(2));
         assert!(ran.err.contains(" a.toml:2:10\n"), "{}", ran.err);
     }
+    // What a head alone needs is wrong for one hair and for its steps, too.
+    let room = room.with("b.toml", "[hair]\nlength = 0.1\n[contact]\nfriction = -1\n");
+    for command in [
+        &["predict", "b.toml"][..],
+        &["hair", "b.toml"],
+        &["style", "b.toml", "--step", "wet = {}"],
+    ] {
+        let ran = room.run(command);
+        assert_eq!(ran.code, Some(2), "{command:?}");
+        assert!(ran.err.contains(" b.toml:4:12\n") && ran.err.contains("0 and 1.5"), "{}", ran.err);
+    }
     // One hair may be longer than any head's.
     let ran = room.feed(&["hair", "-"], b"[hair]\nlength = \"5 m\"\nfibre.diameter = \"1 cm\"");
     assert_eq!(ran.code, Some(0), "{}", ran.err);

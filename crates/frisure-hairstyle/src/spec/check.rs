@@ -17,7 +17,16 @@ impl HairstyleSpec {
     /// # Errors
     /// [`InvalidSpec`], naming the first field that is out of range.
     pub fn check(&self) -> Result<(), InvalidSpec> {
-        NUMBERS.iter().try_for_each(|number| number.check(self))?;
+        self.check_except(&[])
+    }
+
+    /// As [`Self::check`], without the numbers at these paths, for callers that allow more of them.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the first other field that is out of range.
+    pub fn check_except(&self, paths: &[&str]) -> Result<(), InvalidSpec> {
+        let checked = NUMBERS.iter().filter(|number| !paths.contains(&number.range.field));
+        checked.into_iter().try_for_each(|number| number.check(self))?;
         self.implantation.partings.iter().try_for_each(Parting::check)?;
         self.regions.iter().try_for_each(RegionStyle::check)?;
         // Without a head, the number of hairs of a density is unknown.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use frisure_rod::InvalidQuantity;
+use glam::DVec3;
 use thiserror::Error;
 
 use crate::implantation::PartingError;
@@ -47,6 +48,25 @@ pub enum StyleError {
         needed: f64,
         /// Length (m) of the longest wisp.
         longest: f64,
+    },
+    /// Hair is held at a point inside the head.
+    #[error(
+        "the point is {:.1} mm inside the head; there is skin at [{:.3}, {:.3}, {:.3}] m",
+        1e3 * depth, skin.x, skin.y, skin.z
+    )]
+    InsideHead {
+        /// How deep it is (m).
+        depth: f64,
+        /// A near point of the skin (m, head's frame).
+        skin: DVec3,
+    },
+    /// Every wisp that is long enough to be tied there catches on its way.
+    #[error(
+        "no hair is gathered: each of the {long_enough} wisps that are long enough catches on its way, or ends short of the tie"
+    )]
+    NothingReached {
+        /// The number of wisps that are long enough.
+        long_enough: usize,
     },
     /// No tail is long enough to be braided.
     #[error(

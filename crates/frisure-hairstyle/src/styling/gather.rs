@@ -92,7 +92,7 @@ impl Styling {
 /// Gathers the chosen wisps that are long enough, and holds them there. What catches on an ear or the neck on its way stays out.
 ///
 /// # Errors
-/// [`StyleError::NothingGathered`], if no wisp is long enough.
+/// [`StyleError::NothingGathered`], if no wisp is long enough, and [`StyleError::NothingReached`], if each catches on its way.
 pub(super) fn gathered(
     act: &Act<'_>,
     chosen: &[bool],
@@ -142,6 +142,11 @@ pub(super) fn gathered(
         let rest = &tried.rest.guides[i];
         rest.at(&rest.chain(), at).0.distance(to) <= REACHED
     };
+    let long_enough = places.len();
+    let places: Vec<_> = places.into_iter().filter(reached).collect();
+    if places.is_empty() {
+        return Err(StyleError::NothingReached { long_enough });
+    }
     let last = if to.in_hand { &hand } else { act };
-    last.on(&in_hand).with(before.styling.held_at(by, places.into_iter().filter(reached)))
+    last.on(&in_hand).with(before.styling.held_at(by, places.into_iter()))
 }

@@ -219,3 +219,34 @@ fn a_new_parting_sends_hair_to_both_sides_of_it() {
         assert_eq!((a.rod.length(), a.rod.stiffness()), (b.rod.length(), b.rod.stiffness()));
     }
 }
+
+#[test]
+fn hair_is_not_held_inside_the_head() {
+    let before = hairstyle("caucasian-straight", 10);
+    let inside = HEAD.landmarks().cranium_centre;
+    let tie = Tie { selection: Selection::Everything, to: TiePlace::At(inside), braided: false };
+    let clip = Clip { to: inside, ..Clip::default() };
+    for operation in [Operation::Tie(tie), Operation::Clip(clip)] {
+        let refused = style(&before, &HEAD, &operation, StyleOptions::default(), &());
+        let Err(StyleError::InsideHead { depth, skin }) = refused.map(|_| ()) else {
+            panic!("{operation:?} is done")
+        };
+        assert!(depth > 0.05, "{depth}");
+        assert!(HEAD.signed_distance().value(skin).abs() < 1e-3, "{skin}");
+        // Where the error says, it goes.
+        let clip = Operation::Clip(Clip { to: skin, ..Clip::default() });
+        assert!(style(&before, &HEAD, &clip, StyleOptions::default(), &()).is_ok());
+    }
+}
+
+#[test]
+fn wisps_without_thickness_are_those_of_a_thickness_of_nothing() {
+    let at = |volume: f64| {
+        let mut spec = spec("caucasian-wavy", 6, HairContact::Density);
+        spec.contact.volume = volume;
+        predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap()
+    };
+    let [none, hardly] = [at(0.0), at(1e-320)];
+    let tips = |hair: &Hairstyle| hair.equilibria().iter().map(|r| r.tip()).collect::<Vec<_>>();
+    assert_eq!(tips(&none), tips(&hardly));
+}

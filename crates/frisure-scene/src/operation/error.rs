@@ -98,6 +98,10 @@ fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String
         StyleError::NothingGathered { .. } => {
             "let the hair grow first; a tie may be nearer to its roots".into()
         }
+        StyleError::NothingReached { .. } => {
+            "put the tie where hair gets to it around the head, such as `\"middle\"`".into()
+        }
+        StyleError::InsideHead { .. } => "put the point on the skin or outside of it".into(),
         StyleError::TooShortToBraid { .. } => {
             "let the hair grow first, tie it lower, or leave out `braided`".into()
         }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::hairstyle::{Grip, Hairstyle, Styling, WispState};
+use crate::head::Head;
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
 use crate::styling::selection::Selection;
@@ -64,6 +65,28 @@ pub(super) fn check_point(field: &'static str, p: DVec3) -> Result<(), InvalidSp
         p.to_array().into_iter().fold(0.0, |far: f64, x| if x.abs() <= far { far } else { x });
     let allowed = "three numbers within 100 m of the origin";
     Range::new(field, -FARTHEST, FARTHEST, allowed).check(far)
+}
+
+/// How deep (m) in the head a point may be where hair is held: what is pinned to the skin may be a little below it. Chosen: above the thickness of what is
+/// pinned, and the error of a coarse mesh.
+const MOST_DEPTH: f64 = 5e-3;
+
+/// Steps from a point inside the head to the skin. Chosen: the distance is exact near the skin, so that the last ones are short.
+const TO_THE_SKIN: usize = 20;
+
+/// Refuses a point at which hair is held inside the head, where no hair gets.
+pub(super) fn check_outside(head: &Head, p: DVec3) -> Result<(), StyleError> {
+    let depth = -head.signed_distance().value(p);
+    if depth <= MOST_DEPTH {
+        return Ok(());
+    }
+    // Deep inside the gradient does not point to the nearest skin; some steps of its own length get to skin that is near.
+    let mut skin = p;
+    for _ in 0..TO_THE_SKIN {
+        let (distance, gradient) = head.signed_distance().value_gradient(skin);
+        skin -= gradient.normalize_or(DVec3::Z) * distance;
+    }
+    Err(StyleError::InsideHead { depth, skin })
 }
 
 /// A vector with a length.

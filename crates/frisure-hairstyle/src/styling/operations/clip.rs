@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
+use super::apply::{Apply, check_outside, check_point};
 use crate::hairstyle::{Fastener, Grip, Hairstyle};
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
 use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
-use super::apply::{Apply, check_point};
 
 /// Holds a place of each wisp at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +43,7 @@ impl Apply for Clip {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
+        check_outside(act.head, self.to)?;
         act.held(&self.selection, Grip::Clip { at: self.at, to: self.to, by: Fastener::Clip })
     }
 }

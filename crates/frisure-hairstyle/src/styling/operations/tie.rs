@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::apply::{Apply, check_point};
+use super::apply::{Apply, check_outside, check_point};
 use crate::hairstyle::{Fastener, Hairstyle};
 use crate::head::Head;
 use crate::spec::InvalidSpec;
@@ -103,6 +103,9 @@ impl Apply for Tie {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
+        if let TiePlace::At(point) = self.to {
+            check_outside(act.head, point)?;
+        }
         let chosen = act.selected(&self.selection)?;
         let centre = act.head.landmarks().cranium_centre;
         let tied = gathered(
