@@ -333,3 +333,40 @@ fn elements_too_few_for_the_curl_say_nothing_of_it() {
         assert_eq!((stable, rest.error_estimate.is_some()), (told, told), "{n}");
     }
 }
+
+#[test]
+fn an_accuracy_is_met_if_the_most_elements_do() {
+    // A strain that jumps, of which doublings of the first division end at 5 760 elements, and twice as many are too many.
+    let jumps = [
+        (0.0, [30.217_669_755, 0.0, -7.471_507_089]),
+        (0.092_994_175, [30.217_669_755, 0.0, -7.471_507_089]),
+        (0.092_994_484, [3.123_499_129, 0.0, -0.411_167_578]),
+        (0.094_795_786, [3.123_499_129, 0.0, -0.411_167_578]),
+        (0.094_796_094, [16.239_994_558, 0.0, 6.475_663_594]),
+        (0.125_764_449, [16.239_994_558, 0.0, 6.475_663_594]),
+        (0.125_764_757, [82.791_446_634, -120.330_775_323, -33.758_400_132]),
+        (0.155_955_431, [82.791_446_634, -120.330_775_323, -33.758_400_132]),
+        (0.155_955_739, [1.827_768_454, -9.221_014_193, 2.525_283_197]),
+        (0.308_019_133, [5.023_431_415, -14.487_033_936, -2.231_040_076]),
+    ];
+    let knots = jumps.map(|(s, strain)| (s, DVec3::from_array(strain))).to_vec();
+    let tangent = DVec3::new(0.396_775_598, 0.732_322_451, 0.553_419_328);
+    let across = DVec3::new(-0.885_344_654, 0.464_501_026, 0.020_090_778);
+    let rod = Rod::new(RodSpec {
+        length: 0.308_019_133,
+        section: Section::from_semi_axes(4.487_583e-5, 3.499_072e-5).unwrap(),
+        material: frisure_rod::Material::new(1.028_993_682e9, 3.960_663_873e8, 1300.0).unwrap(),
+        torsion: frisure_rod::TorsionConstant::SaintVenant,
+        natural: NaturalStrain::Varying(StrainProfile::new(knots).unwrap()),
+        root: Root::from_tangent(DVec3::ZERO, tangent, across).unwrap(),
+        load: Load::down(9.81),
+    })
+    .unwrap();
+    let request = 1e-6;
+    let found = equilibrium(&rod, &[], &accuracy(&rod, request));
+    assert_eq!(found.certificate.accuracy, AccuracyStatus::Met, "{:?}", found.error_estimate);
+    assert!(found.elements <= 10_000);
+    let exact = equilibrium(&rod, &[], &elements(10_000, ElementKind::Auto));
+    let gap = found.tip().distance(exact.tip()) / rod.length();
+    assert!(gap < request, "{gap}");
+}

@@ -543,6 +543,23 @@ impl Search<'_> {
 
     /// Doubles the elements until two extrapolations agree and the stability is known.
     fn refine(&self, first: Level, accuracy: f64) -> Equilibrium {
+        let few = first.elements;
+        let found = self.refine_from(first, accuracy);
+        // Doublings of the first division end below the most elements; those of an eighth of the most end there.
+        let eighth = self.most_elements() / 8;
+        let missed = found.certificate.accuracy == AccuracyStatus::Missed;
+        if !missed || 8 * eighth <= found.elements || eighth < few {
+            return found;
+        }
+        let chain = self.chain(eighth);
+        let most = self.settle(&chain, warm_start(&chain, &found), self.options.tolerance);
+        let finest = self.refine_from(most, accuracy);
+        let error = |of: &Equilibrium| of.error_estimate.unwrap_or(f64::INFINITY);
+        if error(&finest) < error(&found) { finest } else { found }
+    }
+
+    /// [`Self::refine`] by doublings of one division alone.
+    fn refine_from(&self, first: Level, accuracy: f64) -> Equilibrium {
         if 2 * first.elements > self.most_elements() {
             return self.with_elements(first);
         }
