@@ -22,9 +22,6 @@ use crate::head::Head;
 use crate::parallel;
 use crate::spec::HairstyleSpec;
 
-/// Iterations of one guide in one sweep: the others will move, too. Chosen by trial; not measured further.
-const ITERATIONS: usize = 1;
-
 /// How often the tether of a guide that moves too far is made four times as stiff. A guard: 4⁴⁰ holds anything.
 const MOST_TETHERS: usize = 40;
 
@@ -222,9 +219,10 @@ impl<'a> Wisp<'a> {
         })
     }
 
-    /// Some steps downhill while all others hold still, by at most `reach` (m).
+    /// A step downhill while all others hold still, by at most `reach` (m).
     pub(super) fn downhill(&self, others: &dyn Field, reach: f64) -> Settled {
-        let stopping = StoppingCriteria { tolerance: 0.0, max_iterations: ITERATIONS };
+        // One iteration: the others will move, too.
+        let stopping = StoppingCriteria { tolerance: 0.0, max_iterations: 1 };
         let from = &self.settled.shape;
         // A trust region in space: the same step with a stiffer tether until no node moves farther than `reach`.
         let mut stiffness = self.settled.tether;
@@ -232,15 +230,23 @@ impl<'a> Wisp<'a> {
             let tether = Tether::new(stiffness, &self.chain, from);
             // ½ c |r − r₀|² per length is a damping in space: the softest motions of a long hair are those that move it farthest.
             let tether = FieldPotential::new(&tether, 1);
-            let found = self.among(others, Some(&tether), |problem| {
-                Newton::default().minimise(problem, from.clone(), stopping)
+            let (shape, iterations) = self.among(others, Some(&tether), |problem| {
+                let newton = Newton::default();
+                // Where there is no step down, a saddle may be left.
+                newton.step_downhill(problem, from).map_or_else(
+                    || {
+                        let found = newton.minimise(problem, from.clone(), stopping);
+                        (found.shape, found.iterations)
+                    },
+                    |shape| (shape, 1),
+                )
             });
-            let moved = farthest(&found.shape, from);
+            let moved = farthest(&shape, from);
             if moved <= reach {
                 let looser = if moved < SHORT_MOVE * reach { LOOSENING } else { 1.0 };
                 return Settled {
-                    shape: found.shape,
-                    iterations: found.iterations,
+                    shape,
+                    iterations,
                     tether: (stiffness * looser).max(LOOSEST * firmness(&self.guide.rod, 0.0)),
                 };
             }

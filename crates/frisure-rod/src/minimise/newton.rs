@@ -132,6 +132,31 @@ impl Newton {
         NewtonStep { gradient: at.gradient, step, positive_definite }
     }
 
+    /// The shape after one step downhill: what [`Minimiser::minimise`] finds in one iteration, without the gradient and the stability there,
+    /// which take as long as the step. `None` where the gradient is zero, or no step lowers the energy.
+    #[must_use]
+    pub fn step_downhill(&self, problem: &Problem<'_>, shape: &Shape) -> Option<Shape> {
+        if problem.with_position {
+            self.step_downhill_of::<true>(problem, shape)
+        } else {
+            self.step_downhill_of::<false>(problem, shape)
+        }
+    }
+
+    fn step_downhill_of<const POSITION: bool>(
+        &self,
+        problem: &Problem<'_>,
+        shape: &Shape,
+    ) -> Option<Shape> {
+        let at = Linearisation::<POSITION>::new(problem, shape);
+        if at.largest_gradient() == 0.0 {
+            return None;
+        }
+        let mut damping = 0.0;
+        let step = self.step(&at, shape, problem.energy(shape).total(), &mut damping);
+        step.map(|step| step.shape)
+    }
+
     /// Whether a node moves farther than it may from one shape to the next.
     fn goes_too_far(&self, shape: &Shape, next: &Shape) -> bool {
         let far = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > self.longest_step;
