@@ -215,3 +215,37 @@ def test_vmap_and_single_precision_in_jax() -> None:
     slopes = jax.vmap(jax.grad(height))(radii)
     assert slopes.shape == (2,) and np.isfinite(np.asarray(slopes)).all()
     assert np.isclose(slopes[1], jax.grad(height)(radii[1]), rtol=1e-5)
+
+
+def test_a_second_derivative_in_torch_is_an_error() -> None:
+    torch = framework("torch")
+    import frisure.torch
+
+    length = torch.tensor(0.1, dtype=torch.float64, requires_grad=True)
+    height = frisure.torch.settle(length, elements=6)[0, -1, 2]
+    # By the product alone there would be a number without the part of the rods.
+    for loss in (height, height * length):
+        (first,) = torch.autograd.grad(loss, length, create_graph=True, retain_graph=True)
+        with pytest.raises(frisure.ArgumentError, match="first derivatives alone"):
+            torch.autograd.grad(first, length)
+
+
+def test_gradients_go_through_lists() -> None:
+    torch, jax = framework("torch"), framework("jax")
+    import frisure.jax
+    import frisure.torch
+
+    expected = rods.settle([0.1, 0.2], elements=6, derivatives=True)
+    assert expected.points is not None
+    loss = np.zeros_like(expected.points)
+    loss[0, -1, 2] = 1
+    by = expected.vjp(loss).length[0]
+    length = torch.tensor(0.1, dtype=torch.float64, requires_grad=True)
+    frisure.torch.settle([length, 0.2], elements=6)[0, -1, 2].backward()
+    assert float(length.grad) == pytest.approx(by, rel=1e-9)
+    height = jax.grad(lambda length: frisure.jax.settle([length, 0.2], elements=6)[0, -1, 2])
+    assert float(height(0.1)) == pytest.approx(by, rel=1e-5)
+    with pytest.raises(frisure.ArgumentTypeError, match="length is no array of numbers"):
+        rods.settle(length)
+    with pytest.raises(frisure.ArgumentTypeError, match="length is no array of numbers"):
+        frisure.jax.settle([[0.1], [0.1, 0.2]])

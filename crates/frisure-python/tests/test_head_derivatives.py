@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any
 
 import frisure
@@ -122,3 +124,10 @@ def test_without_what_follows_from_weight_the_sums_are_derivatives_by_keys_of_th
         heavier, lighter = (at_rest(**{key: value * (1 + sign * 1e-4)}) for sign in (1, -1))
         expected = ((heavier.points - lighter.points) * loss).sum() / (2e-4 * value)
         assert found == pytest.approx(expected, rel=1e-3), key
+
+
+def test_derivatives_are_copied_and_not_pickled() -> None:
+    at_rest = predicted("helix").derivatives()
+    assert copy.copy(at_rest) is at_rest and copy.deepcopy(at_rest) is at_rest
+    with pytest.raises(frisure.ArgumentTypeError, match="pickle the Hairstyle"):
+        pickle.dumps(at_rest)

@@ -147,8 +147,10 @@ def test_no_rods_are_no_error() -> None:
         ({"length": 0.1, "curl_radius": 1, "curl_pitch": np.nan}, ValueError, r"`curl_pitch\[0\]`"),
         ({"length": 0.1, "tangent": [[0, 0, 1], [0, 0, 0]]}, ValueError, r"`tangent\[1\]`"),
         ({"length": 0.1, "d1": [1, 0, 0]}, ValueError, r"`d1\[0\]`"),
-        ({"length": 0.1, "root": [0, np.nan, 0]}, ValueError, r"`root\[0\]`"),
-        ({"length": 0.1, "natural_strain": [0, np.inf, 0]}, ValueError, r"`natural_strain\[0\]`"),
+        ({"length": 0.1, "root": [0, np.nan, 0]}, ValueError, r"root\[1\] is nan; it must be finite"),
+        ({"length": [0.1, True]}, TypeError, "length has bools in it"),
+        ({"length": 0.1, "natural_strain": np.full((2, 3, 3), np.inf)}, ValueError, r"natural_strain\[0, 0, 0\] is inf"),
+        ({"length": 0.1, "natural_strain": [0, np.inf, 0]}, ValueError, r"natural_strain\[1\] is inf"),
         ({"length": [0.1, 0.2], "diameter": [1e-4] * 3}, ValueError, "diameter has 3 values|length has 2"),
         ({"length": [[0.1]]}, ValueError, r"length has the shape \(1, 1\)"),
         ({"length": 0.1, "root": [1, 2]}, ValueError, "root has the shape"),
@@ -337,3 +339,13 @@ def test_results_are_told_in_a_line() -> None:
     assert repr(rods.settle(0.1, points=False)) == "<frisure.rods.Settled: 1 of 1 rods stable>"
     assert repr(rest.vjp(np.ones((2, 9, 3)))) == "<frisure.rods.Gradient: 2 of 2 rods with derivatives, 2 regular>"
     assert "2 rods" in repr(rest.jvp(length=1.0)) and "of 2 fibres" in repr(rods.inverse(rest.points))
+
+
+def test_lines_in_another_unit_are_refused_at_once() -> None:
+    hanging = np.zeros((2, 10, 3))
+    hanging[:, :, 2] = -np.linspace(0, 0.15, 10)
+    hanging[1] *= 1000
+    with pytest.raises(frisure.ArgumentError, match=r"points\[1\] has a length of 150 m, .*in metres"):
+        rods.inverse(hanging)
+    with pytest.raises(frisure.ArgumentError, match=r"points\[0, 9, 2\] is nan"):
+        rods.inverse(np.where(hanging < -0.149, np.nan, hanging))

@@ -297,3 +297,12 @@ def test_every_preset_is_a_scene() -> None:
         assert frisure.presets.descriptions[name]
     with pytest.raises(KeyError, match="there are"):
         frisure.presets["purple"]
+
+
+def test_keys_are_texts() -> None:
+    scene = frisure.Scene(TEXT)
+    for key in (0, None, False):
+        wrong: Any = key
+        for use in (lambda: scene[wrong], lambda: wrong in scene, lambda: scene.get(wrong)):
+            with pytest.raises(frisure.ArgumentTypeError, match="a key is a text"):
+                use()

@@ -19,16 +19,33 @@ Float64 = NDArray[np.float64]
 def array(name: str, value: Any) -> Float64:
     """Real numbers as aligned float64, without a copy where they are that already."""
     unmasked(name, value)
-    try:
-        found = np.asarray(value)
-    except ValueError as error:
-        raise ArgumentError(f"{name} is no array of numbers: {error}") from None
+    found = converted(name, value)
     if found.dtype.kind not in "fiu":
         raise ArgumentTypeError(f"{name} has the dtype {found.dtype}; it must be real numbers in SI units")
     if found.dtype != np.float64 or not found.flags.aligned:
         check_room(f"numbers of {name}", found.size, 8)
     # A field of a packed record is not aligned.
     return np.require(found, np.float64, ["ALIGNED"])
+
+
+def converted(name: str, value: Any) -> NDArray[Any]:
+    """A value as an array of whatever kind; NumPy would take the bools in a list of numbers for 0 and 1."""
+    try:
+        found = np.asarray(value)
+    except (ValueError, TypeError, RuntimeError, NotImplementedError) as error:
+        # What other packages say about arrays of theirs that are no plain ones.
+        kind = ArgumentError if isinstance(error, ValueError) else ArgumentTypeError
+        raise kind(f"{name} is no array of numbers: {error}") from None
+    if isinstance(value, (list, tuple)) and _has_bool(value, 3):
+        raise ArgumentTypeError(f"{name} has bools in it; it must be real numbers in SI units")
+    return found
+
+
+def _has_bool(value: Any, deep: int) -> bool:
+    """Whether a bool is in a list, or in lists in it so many levels deep."""
+    if deep > 0 and isinstance(value, (list, tuple)):
+        return any(_has_bool(part, deep - 1) for part in value)
+    return isinstance(value, (bool, np.bool_))
 
 
 def unmasked(name: str, value: Any) -> None:
@@ -87,7 +104,7 @@ def names(name: str, value: Any) -> list[str] | None:
     except TypeError:
         found = None
     if found is None or not all(isinstance(item, str) for item in found):
-        raise ArgumentError(f"{name} is {shown(value)}; it must be a list of names, or None for all")
+        raise ArgumentTypeError(f"{name} is {shown(value)}; it must be a list of names, or None for all")
     return found
 
 
@@ -109,7 +126,7 @@ def whole(name: str, value: Any, least: int, most: int | None = None) -> int:
             raise TypeError
         number = operator.index(value)
     except TypeError:
-        raise ArgumentError(f"{name} is {shown(value)}; it must be a whole number, {allowed}") from None
+        raise ArgumentTypeError(f"{name} is {shown(value)}; it must be a whole number, {allowed}") from None
     if number < least or most is not None and number > most:
         raise ArgumentError(f"{name} is {shown(value)}; it must be {allowed}")
     return number
@@ -117,9 +134,10 @@ def whole(name: str, value: Any, least: int, most: int | None = None) -> int:
 
 def real(name: str, value: Any, allowed: str, least: float = -np.inf, most: float = np.inf) -> float:
     """A finite number in a range, which `allowed` tells."""
-    number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise ArgumentTypeError(f"{name} is {shown(value)}; it must be {allowed}")
     try:
-        found = float(value) if number else np.nan
+        found = float(value)
     except OverflowError:
         found = np.inf
     if not (np.isfinite(found) and least <= found <= most):

@@ -8,6 +8,8 @@ from typing import Any, Optional
 import torch.distributed  # type: ignore[import-not-found, unused-ignore]
 import torch.utils.data  # type: ignore[import-not-found, unused-ignore]
 
+from frisure._check import whole
+
 Rows = Callable[[Optional[int], tuple[int, int]], Iterator[dict[str, Any]]]
 """Makes the rows of an order and a shard."""
 
@@ -31,7 +33,7 @@ class TorchDataset(torch.utils.data.IterableDataset):  # type: ignore[misc, type
 
     def set_epoch(self, epoch: int) -> None:
         """Chooses another order for the next iteration, if rows are shuffled; the same in all processes."""
-        self._epoch = epoch
+        self._epoch = whole("epoch", epoch, 0)
 
     def __iter__(self) -> Iterator[Any]:
         rank, processes = self._shard or _process()

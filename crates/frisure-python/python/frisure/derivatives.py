@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from frisure._check import array as _array
 from frisure._check import real
 from frisure._frisure import HeadAtRest, Prediction
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 
 __all__ = ["HeadDerivatives", "HeadGradient", "HeadMotion"]
 
@@ -110,6 +111,15 @@ class HeadDerivatives:
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
+
+    def __copy__(self) -> HeadDerivatives:
+        return self
+
+    def __deepcopy__(self, memo: object) -> HeadDerivatives:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise ArgumentTypeError("derivatives of a head are not pickled; pickle the Hairstyle, and call `derivatives` there")
 
     def __repr__(self) -> str:
         return f"<frisure.HeadDerivatives of {len(self)} guides; lowest eigenvalue {self.lowest_eigenvalue:.2g}>"

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from frisure._check import real, unmasked, whole
+from frisure._check import converted, real, unmasked, whole
 from frisure._frisure import check_room, fit_fibres
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 from frisure.strands import Strands
 
 __all__ = ["Fits", "fit"]
@@ -233,14 +233,11 @@ def _fits(found: dict[str, Any], count: int, knots: int) -> Fits:
 def _array(name: str, value: Any) -> Float64:
     """A float64 array of real numbers, as it is if it is one."""
     unmasked(name, value)
-    try:
-        array = np.asarray(value)
-        if array.dtype.kind not in "fiu":
-            raise TypeError(f"its type is {array.dtype}")
-        # A field of a packed record is not aligned.
-        return np.require(array, np.float64, ["ALIGNED"])
-    except (TypeError, ValueError) as error:
-        raise ArgumentError(f"{name} is no array of real numbers: {error}") from None
+    array = converted(name, value)
+    if array.dtype.kind not in "fiu":
+        raise ArgumentTypeError(f"{name} is no array of real numbers: its type is {array.dtype}")
+    # A field of a packed record is not aligned.
+    return np.require(array, np.float64, ["ALIGNED"])
 
 
 def _lines(name: str, value: Any, columns: int) -> tuple[Float64, NDArray[np.int64]]:
@@ -334,7 +331,7 @@ def _integers(name: str, value: Any, count: int) -> NDArray[np.int64]:
     unmasked(name, value)
     array = np.asarray(value)
     if array.dtype.kind not in "iu":
-        raise ArgumentError(f"{name} has the type {array.dtype}; it must have integers")
+        raise ArgumentTypeError(f"{name} has the type {array.dtype}; it must have integers")
     if array.ndim == 0:
         array = np.full(count, array)
     if array.shape != (count,):

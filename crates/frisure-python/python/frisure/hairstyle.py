@@ -17,7 +17,7 @@ from frisure._check import flag, real, whole
 from frisure._check import path as _path
 from frisure._frisure import Prediction, render, render_png, save_picture
 from frisure.derivatives import HeadDerivatives
-from frisure.errors import ArgumentError, ArgumentTypeError
+from frisure.errors import ArgumentError, ArgumentTypeError, FrisureError
 from frisure.scene import Scene, SceneSource
 from frisure.strands import Strands
 
@@ -267,7 +267,11 @@ class Hairstyle:
 
     def __repr__(self) -> str:
         scene = repr(self._scene).removeprefix("<frisure.Scene ").removesuffix(">")
-        told = self._told if self._known is not None else "not predicted yet"
+        try:
+            told = self._told if self._known is not None else "not predicted yet"
+        except FrisureError:
+            # In a child of the process that predicted it, where threads are gone.
+            told = "predicted in another process"
         return f"<frisure.Hairstyle {scene}; {told}>"
 
     def _repr_png_(self) -> bytes:

@@ -41,6 +41,12 @@ def _doubles(given: dict[str, Any]) -> dict[str, Any]:
 def _real(name: str, value: Any) -> jax.Array:
     """A real number or array as JAX has them; a complex one would lose its imaginary part."""
     unmasked(name, value)
+    if isinstance(value, (list, tuple)):
+        try:
+            # A list may have arrays of JAX in it, also such that it traces.
+            value = jnp.asarray(value)
+        except (TypeError, ValueError) as error:
+            raise ArgumentTypeError(f"{name} is no array of numbers: {error}") from None
     kind = value.dtype if hasattr(value, "dtype") else np.asarray(value).dtype
     if not (jnp.issubdtype(kind, jnp.floating) or jnp.issubdtype(kind, jnp.integer)):
         raise ArgumentTypeError(f"{name} has the dtype {kind}; it must be real numbers in SI units")

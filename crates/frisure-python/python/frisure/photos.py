@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from frisure._check import path, real, shown, text, unmasked, whole
 from frisure._frisure import measure_photo
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 from frisure.fits import Progress
 
 __all__ = ["Measured", "measure"]
@@ -103,7 +103,7 @@ def measure(
                 f"photo has the shape {photo.shape} and the type {photo.dtype}; it must be (height, width, 3 or 4) of uint8"
             )
     elif not isinstance(photo, (str, os.PathLike)):
-        raise ArgumentError(f"photo is a {type(photo).__name__}; it must be a path or an array of uint8")
+        raise ArgumentTypeError(f"photo is a {type(photo).__name__}; it must be a path or an array of uint8")
     else:
         path("photo", photo)
     scale = text("scale", scale, "a text such as '52 px/mm'")

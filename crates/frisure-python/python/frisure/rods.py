@@ -447,7 +447,17 @@ def _vectors(name: str, value: ArrayLike) -> Float64:
     array = np.atleast_2d(given)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ArgumentError(f"{name} has the shape {given.shape}; it must be (3,) or (H, 3)")
+    _finite(name, given)
     return array
+
+
+def _finite(name: str, given: Float64) -> None:
+    """Refuses numbers that are none, by their index in what was given."""
+    # Rows that are one and the same in memory are looked at once: there may be more of them than memory has room for.
+    given = given[tuple(slice(0, 1) if step == 0 else slice(None) for step in given.strides)]
+    if not np.isfinite(given).all():
+        index = np.argwhere(~np.isfinite(given))[0]
+        raise ArgumentError(f"{name}[{', '.join(map(str, index))}] is {given[tuple(index)]}; it must be finite")
 
 
 def _profiles(name: str, value: ArrayLike) -> Float64:
@@ -457,6 +467,7 @@ def _profiles(name: str, value: ArrayLike) -> Float64:
         array = np.atleast_2d(array)[:, np.newaxis, :]
     if array.ndim != 3 or array.shape[2] != 3 or array.shape[1] == 0:
         raise ArgumentError(f"{name} has the shape {given.shape}; it must be (3,), (H, 3) or (H, K, 3)")
+    _finite(name, given)
     return array
 
 
@@ -663,16 +674,46 @@ def inverse(
 
     A line says nothing of the turn of the sections about it; they are taken to turn as evenly as possible. A soft fibre
     cannot stand in every shape: see `stable` and `stiffness_needed`. This solves one line after another, on all
-    threads, in milliseconds each.
+    threads, in milliseconds each for hair of 15 cm and in seconds for hair of a metre. A line whose weight is more than 1e8 times the
+    stiffness of the fibre (ρSgL³/EI; a hair of a metre has 1e4) is an `ArgumentError`: mostly its points are not in metres.
     """
     given = lines = _array("points", points)
     if lines.ndim == 2:
         lines = lines[np.newaxis]
     if lines.ndim != 3 or lines.shape[2] != 3 or lines.shape[1] < 2:
         raise ArgumentError(f"points has the shape {given.shape}; it must be (P, 3) or (H, P, 3), P at least 2")
+    _finite("points", given)
     fibres = _fibres(diameter, axis_ratio, youngs_modulus, shear_modulus, density, gravity)
     for name, array in fibres.items():
         if len(array) not in (1, len(lines)):
             raise ArgumentError(f"{name} has {len(array)} values for {len(lines)} lines; it must have as many, or one")
     accuracy = real("accuracy", accuracy, "a number between 1e-9 and 1 m", 1e-9, 1)
+    _not_too_limp(lines, fibres)
     return Inverse(*inverse_rods(lines, fibres, accuracy, progress))
+
+
+_LIMPEST = 1e8
+"""Largest weight over stiffness, ρSgL³/EI, of a line whose fibre is sought: that of scenes."""
+
+
+_PART = 4096
+"""Lines whose lengths are computed at once: their differences take as much memory as they do."""
+
+
+def _not_too_limp(lines: Float64, fibres: dict[str, Any]) -> None:
+    """Refuses lines that are too long for their fibre: they would take minutes, and mostly have another unit."""
+    if lines.strides[0] == 0:
+        # One line for all: there may be more of them than memory has room for.
+        lines = lines[:1]
+    with np.errstate(all="ignore"):
+        parts = (lines[i : i + _PART] for i in range(0, len(lines), _PART))
+        each = [np.linalg.norm(np.diff(part, axis=1), axis=2).sum(axis=1) for part in parts]
+        lengths = np.concatenate(each) if each else np.zeros(0)
+        # ρSg/EI with the smaller second moment of area, S b²/4: b² is (d/2)² over the ratio of the axes.
+        softer = 0.0625 * fibres["diameter"] ** 2 / fibres["axis_ratio"]
+        limpness = fibres["density"] * np.abs(fibres["gravity"]) * lengths**3 / (fibres["youngs_modulus"] * softer)
+    for i in np.flatnonzero(limpness > _LIMPEST)[:1]:
+        raise ArgumentError(
+            f"points[{i}] has a length of {lengths[i]:.3g} m, and hangs like cloth: its weight is {limpness[i]:.0e} times its stiffness, and may be"
+            f" {_LIMPEST:.0e}; are the points in metres?"
+        )

@@ -222,7 +222,8 @@ class Scene(Section):
     def _find(self, path: str) -> Any:
         """What the scene says at a path; None if nothing."""
         found: Any = self._data
-        for part in _parts(path) if path else []:
+        # The scene itself has the empty path.
+        for part in _parts(path) if path != "" else []:
             if isinstance(part, int):
                 found = found[part] if isinstance(found, list) and part < len(found) else None
             else:
@@ -237,7 +238,7 @@ class Scene(Section):
 
     def _leaves(self, path: str, value: Any) -> list[tuple[str, Any]]:
         """The changes that replace what is at a path: of a table that is there, key by key, since it may be written under a heading."""
-        if not path:
+        if path == "":
             raise ArgumentError("a key has no name")
         try:
             there = self._find(path)

@@ -17,7 +17,7 @@ from typing import Any
 import torch  # type: ignore[import-not-found, unused-ignore]
 
 from frisure import _autodiff, rods
-from frisure.errors import ArgumentTypeError
+from frisure.errors import ArgumentError, ArgumentTypeError
 
 __all__ = ["settle", "settle_with_energy"]
 
@@ -31,6 +31,29 @@ def _numpy(name: str, tensor: torch.Tensor) -> Any:
     return (given.double() if given.is_floating_point() else given).numpy()
 
 
+def _joined(value: Any) -> Any:
+    """A list with tensors in it as one tensor, through which gradients go to each; other values as they are."""
+    if not isinstance(value, (list, tuple)):
+        return value
+    parts = [_joined(part) for part in value]
+    if not any(isinstance(part, torch.Tensor) for part in parts):
+        return value
+    return torch.stack([torch.as_tensor(part, dtype=torch.float64) for part in parts])
+
+
+class _Once(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
+    """A gradient that depends on tensors, and cannot be differentiated by them. PyTorch's own mark does not stand between a gradient
+    and the tensors, so that a second derivative by one of them would silently lack this part."""
+
+    @staticmethod
+    def forward(ctx: Any, gradient: torch.Tensor, *tensors: torch.Tensor) -> torch.Tensor:
+        return gradient.clone()
+
+    @staticmethod
+    def backward(ctx: Any, *by: torch.Tensor) -> Any:
+        raise ArgumentError("rods at rest have first derivatives alone here; their gradients cannot be differentiated once more")
+
+
 class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
     @staticmethod
     def forward(
@@ -39,6 +62,7 @@ class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
         arrays = {name: _numpy(name, tensor) for name, tensor in zip(names, tensors, strict=True)}
         settled = _autodiff.settle(keywords | arrays, options, derivatives=any(ctx.needs_input_grad))
         ctx.settled, ctx.names = settled, names
+        ctx.save_for_backward(*tensors)
         ctx.kinds = [(tensor.shape, tensor.dtype, tensor.device) for tensor in tensors]
         kinds = [tensor.dtype for tensor in tensors if tensor.is_floating_point()]
         kind = reduce(torch.promote_types, kinds) if kinds else torch.float64
@@ -47,15 +71,18 @@ class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
         return points, torch.as_tensor(settled.energy, dtype=kind, device=device)
 
     @staticmethod
-    @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator, unused-ignore]
     def backward(ctx: Any, by_points: torch.Tensor, by_energy: torch.Tensor) -> tuple[Any, ...]:
         settled: rods.Settled = ctx.settled
         gradient = settled.vjp(_numpy("by_points", by_points), by_energy=_numpy("by_energy", by_energy))
+        sources = [tensor for tensor in (*ctx.saved_tensors, by_points, by_energy) if tensor.requires_grad]
         found: list[torch.Tensor | None] = []
         for index, (name, (shape, dtype, device)) in enumerate(zip(ctx.names, ctx.kinds, strict=True)):
             if ctx.needs_input_grad[3 + index]:
                 by = _autodiff.derivative(gradient, name, tuple(shape))
-                found.append(torch.as_tensor(by, dtype=dtype, device=device))
+                gradient_by = torch.as_tensor(by, dtype=dtype, device=device)
+                if torch.is_grad_enabled():
+                    gradient_by = _Once.apply(gradient_by, *sources)  # type: ignore[no-untyped-call, unused-ignore]
+                found.append(gradient_by)
             else:
                 found.append(None)
         return (None, None, None, *found)
@@ -84,6 +111,10 @@ def settle_with_energy(length: Any, **keywords: Any) -> tuple[torch.Tensor, torc
     True
     """
     arguments, options = _autodiff.split({"length": length, **keywords})
+    try:
+        arguments = {name: _joined(value) for name, value in arguments.items()}
+    except (RuntimeError, ValueError, TypeError) as error:
+        raise ArgumentError(f"a list with tensors in it is no tensor: {error}") from None
     tensors = {name: value for name, value in arguments.items() if isinstance(value, torch.Tensor)}
     others = {name: value for name, value in arguments.items() if name not in tensors}
     points, energy = _Settle.apply(others, options, list(tensors), *tensors.values())  # type: ignore[no-untyped-call, unused-ignore]
