@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
         console::say(&list(scene.steps()))?;
         return Ok(ExitStatus::Success);
     }
-    // Steps of a scene that cannot be predicted would be lost in the error about it.
+    // A scene with numbers that `predict` refuses takes no steps.
     scene.hairstyle_spec()?;
     let read = |step: &String| parse_step(STEP, step.as_str());
     let steps = arguments.steps.iter().map(read).collect::<Result<Vec<_>, _>>()?;

@@ -9,6 +9,7 @@ use frisure_hairstyle::{
     HairContact, Hairstyle, Parting, Place, PredictOptions, StyleOptions, predict, selected,
     settling_report, style,
 };
+use frisure_rod::Equilibrium;
 use glam::DVec3;
 
 use crate::{HEAD, done, farthest_tip, hairstyle, spec};
@@ -247,6 +248,7 @@ fn wisps_without_thickness_are_those_of_a_thickness_of_nothing() {
         predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap()
     };
     let [none, hardly] = [at(0.0), at(1e-320)];
-    let tips = |hair: &Hairstyle| hair.equilibria().iter().map(|r| r.tip()).collect::<Vec<_>>();
+    let tips =
+        |hair: &Hairstyle| hair.equilibria().iter().map(Equilibrium::tip).collect::<Vec<_>>();
     assert_eq!(tips(&none), tips(&hardly));
 }
