@@ -119,7 +119,7 @@ def test_wrong_arguments_are_named_with_the_index() -> None:
         (r"length\[1\] is nan", good, {"length": [0.2, np.nan]}),
         (r"it can have stiffness_over_weight", good, {"known": {"density": 1}}),
         (r"known\['axis_ratio'\]\[0\]` is wrong: axis ratio is 0.5", good, {"known": {"axis_ratio": 0.5}}),
-        (r"known\['torsion_ratio'\]\[1\]` is wrong: .* is -1.0", good, {"known": {"torsion_ratio": [1, -1]}}),
+        (r"known\['torsion_ratio'\]\[1\]` is wrong: .* is -1;", good, {"known": {"torsion_ratio": [1, -1]}}),
         (r"known\['axis_ratio'\] has a deviation", good, {"known": {"axis_ratio": (1.5, 0.1)}}),
         (r"knots is 17; it must be between 1 and 16", good, {"knots": 17}),
     ]
