@@ -25,8 +25,8 @@ impl HairstyleSpec {
     /// # Errors
     /// [`InvalidSpec`], naming the first other field that is out of range.
     pub fn check_except(&self, paths: &[&str]) -> Result<(), InvalidSpec> {
-        let checked = NUMBERS.iter().filter(|number| !paths.contains(&number.range.field));
-        checked.into_iter().try_for_each(|number| number.check(self))?;
+        let mut checked = NUMBERS.iter().filter(|number| !paths.contains(&number.range.field));
+        checked.try_for_each(|number| number.check(self))?;
         self.implantation.partings.iter().try_for_each(Parting::check)?;
         self.regions.iter().try_for_each(RegionStyle::check)?;
         // Without a head, the number of hairs of a density is unknown.
