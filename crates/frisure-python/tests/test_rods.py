@@ -344,8 +344,8 @@ def test_results_are_told_in_a_line() -> None:
 def test_lines_in_another_unit_are_refused_at_once() -> None:
     hanging = np.zeros((2, 10, 3))
     hanging[:, :, 2] = -np.linspace(0, 0.15, 10)
-    hanging[1] *= 1000
-    with pytest.raises(frisure.ArgumentError, match=r"points\[1\] has a length of 150 m, .*in metres"):
+    hanging[1] *= 300
+    with pytest.raises(frisure.ArgumentError, match=r"`points\[1\]` is wrong: its length is 45.000 m, .*in metres"):
         rods.inverse(hanging)
     with pytest.raises(frisure.ArgumentError, match=r"points\[0, 9, 2\] is nan"):
         rods.inverse(np.where(hanging < -0.149, np.nan, hanging))

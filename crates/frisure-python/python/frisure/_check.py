@@ -36,9 +36,14 @@ def converted(name: str, value: Any) -> NDArray[Any]:
         # What other packages say about arrays of theirs that are no plain ones.
         kind = ArgumentError if isinstance(error, ValueError) else ArgumentTypeError
         raise kind(f"{name} is no array of numbers: {error}") from None
+    without_bools(name, value)
+    return found
+
+
+def without_bools(name: str, value: Any) -> None:
+    """Refuses lists with bools in them."""
     if isinstance(value, (list, tuple)) and _has_bool(value, 3):
         raise ArgumentTypeError(f"{name} has bools in it; it must be real numbers in SI units")
-    return found
 
 
 def _has_bool(value: Any, deep: int) -> bool:

@@ -18,7 +18,7 @@ import jax.numpy as jnp  # type: ignore[import-not-found, unused-ignore]
 import numpy as np
 
 from frisure import _autodiff, rods
-from frisure._check import unmasked
+from frisure._check import unmasked, without_bools
 from frisure.errors import ArgumentTypeError
 
 __all__ = ["settle", "settle_with_energy"]
@@ -41,6 +41,7 @@ def _doubles(given: dict[str, Any]) -> dict[str, Any]:
 def _real(name: str, value: Any) -> jax.Array:
     """A real number or array as JAX has them; a complex one would lose its imaginary part."""
     unmasked(name, value)
+    without_bools(name, value)
     if isinstance(value, (list, tuple)):
         try:
             # A list may have arrays of JAX in it, also such that it traces.

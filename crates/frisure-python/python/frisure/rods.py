@@ -688,32 +688,4 @@ def inverse(
         if len(array) not in (1, len(lines)):
             raise ArgumentError(f"{name} has {len(array)} values for {len(lines)} lines; it must have as many, or one")
     accuracy = real("accuracy", accuracy, "a number between 1e-9 and 1 m", 1e-9, 1)
-    _not_too_limp(lines, fibres)
     return Inverse(*inverse_rods(lines, fibres, accuracy, progress))
-
-
-_LIMPEST = 1e8
-"""Largest weight over stiffness, ρSgL³/EI, of a line whose fibre is sought: that of scenes."""
-
-
-_PART = 4096
-"""Lines whose lengths are computed at once: their differences take as much memory as they do."""
-
-
-def _not_too_limp(lines: Float64, fibres: dict[str, Any]) -> None:
-    """Refuses lines that are too long for their fibre: they would take minutes, and mostly have another unit."""
-    if lines.strides[0] == 0:
-        # One line for all: there may be more of them than memory has room for.
-        lines = lines[:1]
-    with np.errstate(all="ignore"):
-        parts = (lines[i : i + _PART] for i in range(0, len(lines), _PART))
-        each = [np.linalg.norm(np.diff(part, axis=1), axis=2).sum(axis=1) for part in parts]
-        lengths = np.concatenate(each) if each else np.zeros(0)
-        # ρSg/EI with the smaller second moment of area, S b²/4: b² is (d/2)² over the ratio of the axes.
-        softer = 0.0625 * fibres["diameter"] ** 2 / fibres["axis_ratio"]
-        limpness = fibres["density"] * np.abs(fibres["gravity"]) * lengths**3 / (fibres["youngs_modulus"] * softer)
-    for i in np.flatnonzero(limpness > _LIMPEST)[:1]:
-        raise ArgumentError(
-            f"points[{i}] has a length of {lengths[i]:.3g} m, and hangs like cloth: its weight is {limpness[i]:.0e} times its stiffness, and may be"
-            f" {_LIMPEST:.0e}; are the points in metres?"
-        )

@@ -31,14 +31,17 @@ def _numpy(name: str, tensor: torch.Tensor) -> Any:
     return (given.double() if given.is_floating_point() else given).numpy()
 
 
-def _joined(value: Any) -> Any:
+def _joined(name: str, value: Any) -> Any:
     """A list with tensors in it as one tensor, through which gradients go to each; other values as they are."""
     if not isinstance(value, (list, tuple)):
         return value
-    parts = [_joined(part) for part in value]
+    parts = [_joined(name, part) for part in value]
     if not any(isinstance(part, torch.Tensor) for part in parts):
         return value
-    return torch.stack([torch.as_tensor(part, dtype=torch.float64) for part in parts])
+    try:
+        return torch.stack([torch.as_tensor(part, dtype=torch.float64) for part in parts])
+    except (RuntimeError, ValueError, TypeError) as error:
+        raise ArgumentError(f"{name} is no tensor: {error}") from None
 
 
 class _Once(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
@@ -111,10 +114,7 @@ def settle_with_energy(length: Any, **keywords: Any) -> tuple[torch.Tensor, torc
     True
     """
     arguments, options = _autodiff.split({"length": length, **keywords})
-    try:
-        arguments = {name: _joined(value) for name, value in arguments.items()}
-    except (RuntimeError, ValueError, TypeError) as error:
-        raise ArgumentError(f"a list with tensors in it is no tensor: {error}") from None
+    arguments = {name: _joined(name, value) for name, value in arguments.items()}
     tensors = {name: value for name, value in arguments.items() if isinstance(value, torch.Tensor)}
     others = {name: value for name, value in arguments.items() if name not in tensors}
     points, energy = _Settle.apply(others, options, list(tensors), *tensors.values())  # type: ignore[no-untyped-call, unused-ignore]

@@ -3,7 +3,8 @@
 use frisure::progress::{Progress, StageCounter};
 use frisure::rod::inverse::{InverseSolution, solve};
 use frisure::rod::{
-    InvalidQuantity, NaturalStrain, Options, Resolution, RodSpec, Root, Stability, TorsionConstant,
+    InvalidQuantity, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Stability,
+    TorsionConstant,
 };
 use frisure_engine::Error;
 use glam::DVec3;
@@ -15,6 +16,10 @@ use super::fibres::{FibreViews, Fibres, WrongRod};
 use super::limits::{LENGTH, POINT};
 use crate::errors::raise;
 use crate::{room, work};
+
+/// Largest weight of a line against the stiffness of its fibre, ρSgL³/EI, as of scenes: a hair of a metre has some ten thousand. Beyond it a unit was
+/// mistaken, and the search takes minutes.
+const MOST_HEAVINESS: f64 = 1e8;
 
 /// Lines that are read between two looks at signals.
 const BLOCK: usize = 256;
@@ -52,9 +57,15 @@ impl Given {
     fn fault(&self) -> Option<String> {
         let coordinates = self.line.iter().flat_map(DVec3::to_array);
         let wrong = coordinates.into_iter().find_map(|x| POINT.check(x).err());
-        wrong.or_else(|| {
-            let length = self.line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-            LENGTH.check(length).err()
+        let length = self.line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        wrong.or_else(|| LENGTH.check(length).err()).or_else(|| {
+            let heaviness = Rod::new(RodSpec { length, ..self.fibre.clone() }).ok()?.heaviness();
+            (heaviness > MOST_HEAVINESS).then(|| {
+                format!(
+                    "its length is {length:.3} m, and its weight {heaviness:.0e} times its stiffness (rho S g L^3 / EI); it must be at most \
+                     {MOST_HEAVINESS:.0e}: are the points in metres?"
+                )
+            })
         })
     }
 
@@ -83,15 +94,19 @@ impl Given {
 fn solve_all(given: &[Given], accuracy: f64, progress: &dyn Progress) -> Result<Vec<Found>, Error> {
     let resolution = Resolution::Accuracy(accuracy);
     let options = Options { resolution, ..Options::default() };
+    let wrong = |i: usize, e: String| Error::invalid(format!("`points[{i}]` is wrong: {e}"), "");
+    // Before any is solved, which takes long.
+    let mut faults = given.iter().enumerate().filter_map(|(i, given)| Some((i, given.fault()?)));
+    if let Some((i, fault)) = faults.next() {
+        return Err(wrong(i, fault));
+    }
     let stage = StageCounter::new(progress, "rods", given.len());
     let found: Vec<Result<Found, Error>> = (given.par_iter().enumerate())
         .map(|(i, given)| {
             stage.check()?;
-            let wrong = |e: String| Error::invalid(format!("`points[{i}]` is wrong: {e}"), "");
-            given.fault().map_or(Ok(()), |fault| Err(wrong(fault)))?;
             let found = given.solve(&options);
             stage.advance();
-            found.map_err(|e| wrong(e.to_string()))
+            found.map_err(|e| wrong(i, e.to_string()))
         })
         .collect();
     // Of several errors the first is raised, whichever was met first.

@@ -28,8 +28,7 @@ impl Batch {
     /// The estimated error (m) of the nodes of each rod that [`Self::solve`] has found, by docs/theory.md, "Extrapolation, accuracy and the
     /// estimate of error".
     ///
-    /// The rods are solved with half and, where it divides, a quarter as many elements, in three quarters of the time of the first solution. The estimate is infinite where there is
-    /// none: for an odd number of elements, for a shape that is no minimum, and where an element turns by more than half a turn with the
+    /// The rods are solved with half and, where it divides, a quarter as many elements. The estimate is infinite where there is none: for an odd number of elements, for a shape that is no minimum, and where an element turns by more than half a turn with the
     /// natural curl. It supposes that fewer elements have the same equilibrium; another one that many more elements have is not known to it.
     ///
     /// # Panics
@@ -43,10 +42,10 @@ impl Batch {
         // 1. How far the nodes of a division are from those of the one before it.
         let half = Batch { elements: n / 2, ..*self }.solve(rods);
         let middle = half.positions(rods);
-        let gaps = gaps(&found.positions(rods), &middle, n);
+        let gaps = largest_gaps(&found.positions(rods), &middle, n);
         let gaps_before = n.is_multiple_of(4).then(|| {
             let quarter = Batch { elements: n / 4, ..*self }.solve(rods);
-            self::gaps(&middle, &quarter.positions(rods), n / 2)
+            largest_gaps(&middle, &quarter.positions(rods), n / 2)
         });
         // 2. All gaps to come: each is q times the one before.
         let estimate = |(i, rod): (usize, &Rod)| {
@@ -70,7 +69,7 @@ fn share(gap: f64, before: f64) -> f64 {
 }
 
 /// The largest distance (m) between the nodes of `elements` elements and half as many, for each rod.
-fn gaps(fine: &[DVec3], coarse: &[DVec3], elements: usize) -> Vec<f64> {
+fn largest_gaps(fine: &[DVec3], coarse: &[DVec3], elements: usize) -> Vec<f64> {
     let rods = fine.chunks_exact(elements + 1).zip(coarse.chunks_exact(elements / 2 + 1));
     let gap = |(fine, coarse): (&[DVec3], &[DVec3])| {
         let distances = coarse.iter().zip(fine.iter().step_by(2)).map(|(a, b)| a.distance(*b));

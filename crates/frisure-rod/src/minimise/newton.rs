@@ -132,8 +132,8 @@ impl Newton {
         NewtonStep { gradient: at.gradient, step, positive_definite }
     }
 
-    /// The shape after one step downhill: what [`Minimiser::minimise`] finds in one iteration, without the gradient and the stability there,
-    /// which take as long as the step. `None` where the gradient is zero, or no step lowers the energy.
+    /// The shape after one step downhill: what [`Minimiser::minimise`] finds in one iteration, without the gradient and the stability there.
+    /// `None` where the gradient is zero, or no step lowers the energy.
     #[must_use]
     pub fn step_downhill(&self, problem: &Problem<'_>, shape: &Shape) -> Option<Shape> {
         if problem.with_position {
