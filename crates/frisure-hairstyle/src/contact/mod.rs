@@ -28,7 +28,7 @@ mod wisp_friction;
 pub use bed::Bed;
 pub use body::{BodyContact, CombedHold, FrictionCoefficients};
 pub(crate) use braid::{BraidPath, HAIR_PER_LENGTH};
-pub(crate) use density::{Density, DensityVariation, Strand};
+pub(crate) use density::{Arrival, Density, DensityVariation, Departure, Strand};
 pub(crate) use friction::{Friction, FrictionGap, SLIP_DISTANCE, Scales, Way};
 pub use friction::{FrictionSurface, Pressed};
 pub use layers::Layer;

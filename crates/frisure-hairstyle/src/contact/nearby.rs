@@ -59,13 +59,31 @@ impl NearLists {
 
     /// Guides in groups of which no two are near each other, taken in the given order.
     pub(super) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        self.coloured(order, |guide, taken| taken.extend(self.of_guide(guide).guides()))
+    }
+
+    /// Guides in groups of which no two are near each other, or near the same guide, taken in the given order.
+    pub(super) fn groups_apart(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        self.coloured(order, |guide, taken| {
+            for near in self.of_guide(guide).guides() {
+                taken.push(near);
+                taken.extend(self.of_guide(near).guides());
+            }
+        })
+    }
+
+    /// Greedy colouring, in the given order: each guide is in the first group that has none of those that `apart` finds.
+    fn coloured(&self, order: &[usize], apart: impl Fn(usize, &mut Vec<usize>)) -> Vec<Vec<usize>> {
         const NONE: usize = usize::MAX;
         let mut group = vec![NONE; self.of.len()];
         let mut groups: Vec<Vec<usize>> = Vec::new();
-        // Greedy colouring of the graph of what is near: the first group in which no neighbour is.
+        let mut others = Vec::new();
         for &guide in order {
-            let taken: Vec<usize> = self.of_guide(guide).guides().map(|g| group[g]).collect();
-            let free = (0..=groups.len()).find(|g| !taken.contains(g)).unwrap_or(groups.len());
+            others.clear();
+            apart(guide, &mut others);
+            let mut taken = vec![false; groups.len()];
+            others.iter().filter(|&&g| group[g] != NONE).for_each(|&g| taken[group[g]] = true);
+            let free = taken.iter().position(|taken| !taken).unwrap_or(groups.len());
             if free == groups.len() {
                 groups.push(Vec::new());
             }

@@ -96,12 +96,28 @@ impl Sieve {
         runs: &[Run],
         mut found: impl FnMut(&Run, usize),
     ) {
+        self.for_each_close_run(own, runs, |run, close| {
+            let mut left = close;
+            while left != 0 {
+                found(run, run.first as usize + left.trailing_zeros() as usize);
+                left &= left - 1;
+            }
+        });
+    }
+
+    /// Calls `found` with the runs that have points as close, in their order, and which points of a run these are: bit i is set for its
+    /// point i.
+    #[inline]
+    pub(super) fn for_each_close_run(
+        &self,
+        own: SievePoint,
+        runs: &[Run],
+        mut found: impl FnMut(&Run, u8),
+    ) {
         for runs in runs.chunks(RUNS) {
             for (run, close) in runs.iter().zip(self.close(own, runs)) {
-                let mut left = close;
-                while left != 0 {
-                    found(run, run.first as usize + left.trailing_zeros() as usize);
-                    left &= left - 1;
+                if close != 0 {
+                    found(run, close);
                 }
             }
         }

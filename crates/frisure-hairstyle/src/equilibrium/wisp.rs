@@ -169,7 +169,12 @@ impl<'a> Wisp<'a> {
 
     /// The points (m) at which contact with other wisps is evaluated.
     pub(super) fn points(&self) -> Vec<DVec3> {
-        self.chain.sample_points(&self.settled.shape, self.resolution)
+        self.points_at(&self.settled)
+    }
+
+    /// The same where the guide is not yet.
+    pub(super) fn points_at(&self, settled: &Settled) -> Vec<DVec3> {
+        self.chain.sample_points(&settled.shape, self.resolution)
     }
 
     pub(super) fn samples(&self) -> Samples {
@@ -290,6 +295,12 @@ impl<'a> Wisp<'a> {
         self.points()
     }
 
+    /// Where a fraction of a step would take the guide, to be [taken](Self::take).
+    pub(super) fn after(&self, step: &[DVec3], fraction: f64) -> Settled {
+        let shape = self.stepped(&self.settled.shape, step, fraction);
+        Settled { shape, iterations: 1, tether: self.settled.tether }
+    }
+
     /// Largest distance (m) that a step moves a node.
     pub(super) fn length_of(&self, step: &[DVec3]) -> f64 {
         let from = &self.settled.shape;
@@ -384,8 +395,18 @@ impl<'a> Wisp<'a> {
 
     /// What the guide adds to the energy of the head (J), with its tether: `others` is its part of what it shares with them.
     pub(super) fn share(&self, others: &dyn Field, anchor: Option<&Anchor>) -> f64 {
+        self.share_at(&self.settled, others, anchor)
+    }
+
+    /// The same where the guide is not yet.
+    pub(super) fn share_at(
+        &self,
+        settled: &Settled,
+        others: &dyn Field,
+        anchor: Option<&Anchor>,
+    ) -> f64 {
         let around = FieldPotential::new(others, self.resolution);
-        self.held(&around, anchor, |problem| problem.energy(&self.settled.shape).total())
+        self.held(&around, anchor, |problem| problem.energy(&settled.shape).total())
     }
 
     /// The guide as an equilibrium.

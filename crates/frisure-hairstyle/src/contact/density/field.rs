@@ -20,6 +20,14 @@ impl Density {
     ) -> AmongDensity<'a> {
         AmongDensity { variation: Some(variation), ..self.around(guide) }
     }
+
+    /// The point of a guide at the arc length `s` (m).
+    pub(super) fn point_at(&self, guide: usize, s: f64) -> usize {
+        let range = self.of_guide(guide);
+        // Rounding finds the point at s; the first is one spacing from the root.
+        let k = (s / self.spacing[guide]).round() as usize;
+        range.start + k.clamp(1, range.len()) - 1
+    }
 }
 
 /// One guide in the density of all, as a field in which it lies: `Σ_k V_k (k_hair/48) max(0, φ_k − φ₀)³` over its points,
@@ -34,24 +42,14 @@ pub(crate) struct AmongDensity<'a> {
     variation: Option<&'a DensityVariation>,
 }
 
-impl AmongDensity<'_> {
-    /// The point at the arc length `s` (m).
-    fn point(&self, s: f64) -> usize {
-        let range = self.density.of_guide(self.guide);
-        // Rounding finds the point at s; the first is one spacing from the root.
-        let k = (s / self.density.spacing[self.guide]).round() as usize;
-        range.start + k.clamp(1, range.len()) - 1
-    }
-}
-
 impl Field for AmongDensity<'_> {
     fn energy(&self, s: f64, _: DVec3) -> f64 {
-        let k = self.point(s);
+        let k = self.density.point_at(self.guide, s);
         self.density.energy(k) / self.density.points.length[k]
     }
 
     fn derivatives(&self, s: f64, _: DVec3) -> Option<(DVec3, DMat3)> {
-        let k = self.point(s);
+        let k = self.density.point_at(self.guide, s);
         let derivatives = match self.variation {
             Some(variation) => variation.derivatives(k),
             None => self.density.derivatives(k),

@@ -6,8 +6,9 @@ use std::ops::Range;
 use glam::{DMat3, DVec3};
 
 use super::kernel::Kernel;
+use super::lanes::{CloseRun, SiteLanes};
 use crate::contact::nearby::{NearLists, SearchPoint};
-use crate::contact::sieve::{Sieve, SievePoint};
+use crate::contact::sieve::{Run, Sieve, SievePoint};
 use crate::contact::thickness::Thickness;
 use crate::math::outer;
 use crate::parallel;
@@ -51,10 +52,12 @@ pub(crate) struct Density {
     pub(super) points: Points,
     /// The points again, each with half of the reach of its kernel, for a first look at what is near.
     sieve: Sieve,
+    /// The points once more, for sums over many of them.
+    lanes: SiteLanes,
     /// What may be within reach of the points of each guide.
     near: NearLists,
     /// Fraction of space that hair takes at each point.
-    dense: Vec<f64>,
+    pub(super) dense: Vec<f64>,
     /// Derivative (J) of the energy of each point by its density.
     pressure: Vec<f64>,
 }
@@ -62,13 +65,13 @@ pub(crate) struct Density {
 /// What is known of every point, in the order of guides.
 pub(super) struct Points {
     /// The guide of each.
-    guide: Vec<u32>,
+    pub(super) guide: Vec<u32>,
     /// Length of hair (m) that each stands for.
     pub(super) length: Vec<f64>,
     /// What others need of it.
     pub(super) sites: Vec<Site>,
     /// Fraction of space that its own wisp, straight, takes there.
-    own: Vec<f64>,
+    pub(super) own: Vec<f64>,
     /// Energy per volume (Pa) of its hair at an excess of 1.
     modulus: Vec<f64>,
     /// Fraction of space at which its hair begins to press.
@@ -80,7 +83,7 @@ pub(super) struct Points {
 pub(super) struct Site {
     pub(super) position: DVec3,
     /// Half of the reach (m) of the kernel between two points of the same kind.
-    half_reach: f64,
+    pub(super) half_reach: f64,
     /// Volume (m³) that its hairs take, by the cross-section of the wisp.
     pub(super) volume: f64,
 }
@@ -94,7 +97,7 @@ impl Site {
 
     /// Fraction of space that the hair of `other` takes here.
     #[inline]
-    fn density_of(&self, other: &Self) -> f64 {
+    pub(super) fn density_of(&self, other: &Self) -> f64 {
         let (square, reach) =
             (self.position.distance_squared(other.position), self.half_reach + other.half_reach);
         // Before the root and the divisions: of those that may be within reach half are not.
@@ -170,7 +173,8 @@ impl Density {
         let positions: Vec<DVec3> = points.sites.iter().map(|site| site.position).collect();
         let ranges = starts.windows(2).map(|w| w[0]..w[1]);
         let sieve = Sieve::new(ranges.map(|range| (&positions[range.clone()], &reaches[range])));
-        Self { starts, spacing, points, sieve, near: NearLists::default(), dense, pressure }
+        let (lanes, near) = (SiteLanes::new(&points.sites), NearLists::default());
+        Self { starts, spacing, points, sieve, lanes, near, dense, pressure }
     }
 
     /// The points of a guide.
@@ -182,10 +186,16 @@ impl Density {
     pub(crate) fn place(&mut self, guide: usize, positions: &[DVec3]) {
         let range = self.of_guide(guide);
         for (k, &position) in range.clone().zip(positions) {
-            let site = &mut self.points.sites[k];
-            site.position = position;
-            self.sieve.place_point(k, position, site.half_reach);
+            self.place_point(k, position);
         }
+    }
+
+    /// Moves one point. [`Self::measure`] has to follow, or [`Self::set_dense`].
+    pub(super) fn place_point(&mut self, k: usize, position: DVec3) {
+        let site = &mut self.points.sites[k];
+        site.position = position;
+        self.sieve.place_point(k, position, site.half_reach);
+        self.lanes.place_point(k, site);
     }
 
     /// Finds which points can come within reach while each guide moves by at most its margin (m) from where it is now, of guides that
@@ -204,71 +214,61 @@ impl Density {
         self.near.update(&points, again);
     }
 
-    /// Guides in groups of which no two can come near each other, taken in the given order.
-    pub(crate) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
-        self.near.groups(order)
+    /// Guides in groups of which no two can come near each other, or near the same guide, taken in the given order.
+    pub(crate) fn groups_apart(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        self.near.groups_apart(order)
     }
 
     /// Calls `close` with each point of another guide that is within reach of a point, and with some that hardly are not.
     #[inline]
-    pub(super) fn for_each_close(&self, k: usize, mut close: impl FnMut(usize)) {
+    pub(super) fn for_each_close(&self, k: usize, close: impl FnMut(usize)) {
+        self.for_each_close_to(k, &self.points.sites[k], close);
+    }
+
+    /// The same if the point were at another place, within the margin of the last search.
+    #[inline]
+    pub(super) fn for_each_close_to(&self, k: usize, at: &Site, mut close: impl FnMut(usize)) {
+        let own = SievePoint::new(at.position, at.half_reach);
+        self.sieve.for_each_close(own, self.near_to(k), |run, l| {
+            close(self.starts[run.guide as usize] + l);
+        });
+    }
+
+    /// What may be within reach of a point.
+    fn near_to(&self, k: usize) -> &[Run] {
         let guide = self.points.guide[k] as usize;
-        let site = &self.points.sites[k];
-        let near = self.near.of_guide(guide).of_point(k - self.starts[guide]);
-        let own = SievePoint::new(site.position, site.half_reach);
-        self.sieve.for_each_close(own, near, |run, l| close(self.starts[run.guide as usize] + l));
+        self.near.of_guide(guide).of_point(k - self.starts[guide])
+    }
+
+    /// The guides that may be within reach of one, in order.
+    pub(super) fn near_guides(&self, guide: usize) -> impl Iterator<Item = usize> {
+        self.near.of_guide(guide).guides()
     }
 
     /// Measures how dense hair is at every point where it is now.
     pub(crate) fn measure(&mut self) {
-        let points = &self.points;
-        let dense = |k: usize| {
-            let site = &points.sites[k];
-            let mut dense = points.own[k];
-            self.for_each_close(k, |l| dense += site.density_of(&points.sites[l]));
-            dense
+        let of_guide = |guide: usize| {
+            let mut runs = Vec::new();
+            let dense = self.of_guide(guide).map(|k| {
+                let site = &self.points.sites[k];
+                let own = SievePoint::new(site.position, site.half_reach);
+                runs.clear();
+                self.sieve.for_each_close_run(own, self.near_to(k), |run, close| {
+                    let first = self.starts[run.guide as usize] + run.first as usize;
+                    runs.push(CloseRun { first, close });
+                });
+                self.points.own[k] + self.lanes.density(site, &runs)
+            });
+            dense.collect::<Vec<f64>>()
         };
-        let of_guide = |guide: usize| self.of_guide(guide).map(dense).collect::<Vec<f64>>();
         self.dense = parallel::map(self.starts.len() - 1, of_guide).concat();
         self.pressure = (0..self.points.len()).map(|k| self.by_density(k).0).collect();
     }
 
-    /// Moves the points of one guide alone and measures what that changes; gives by how much the energy of all other points grows (J).
-    ///
-    /// What is added to a density and taken away again leaves a rounding error there until [`Self::measure`].
-    pub(crate) fn move_guide(&mut self, guide: usize, positions: &[DVec3]) -> f64 {
-        let first = self.starts[guide];
-        let mut growth = 0.0;
-        let mut close = Vec::new();
-        for (k, &position) in (first..).zip(positions) {
-            // 1. What it took of others where it was.
-            self.for_each_close(k, |l| close.push(l));
-            for l in close.drain(..) {
-                let taken = self.points.sites[l].density_of(&self.points.sites[k]);
-                growth += self.densify(l, -taken);
-            }
-            // 2. What it takes, and what others take of it, where it is.
-            self.points.sites[k].position = position;
-            self.sieve.place_point(k, position, self.points.sites[k].half_reach);
-            self.for_each_close(k, |l| close.push(l));
-            let mut dense = self.points.own[k];
-            for l in close.drain(..) {
-                let (own, other) = (&self.points.sites[k], &self.points.sites[l]);
-                dense += own.density_of(other);
-                growth += self.densify(l, other.density_of(own));
-            }
-            self.dense[k] = dense;
-            self.pressure[k] = self.by_density(k).0;
-        }
-        growth
-    }
-
-    /// Adds to the density at a point; gives by how much its energy grows (J).
-    fn densify(&mut self, k: usize, change: f64) -> f64 {
-        let before = self.energy(k);
-        self.dense[k] += change;
+    /// Sets the density at a point.
+    pub(super) fn set_dense(&mut self, k: usize, dense: f64) {
+        self.dense[k] = dense;
         self.pressure[k] = self.by_density(k).0;
-        self.energy(k) - before
     }
 
     /// How much denser than at the onset hair is at a point; 0 where it is not.
@@ -293,7 +293,13 @@ pub(super) struct Pair {
 impl Density {
     /// Energy of a point (J). docs/theory.md (D2)
     pub(super) fn energy(&self, k: usize) -> f64 {
-        self.points.modulus[k] * self.points.sites[k].volume * self.excess(k).powi(3)
+        self.energy_at(k, self.dense[k])
+    }
+
+    /// The same at another density.
+    pub(super) fn energy_at(&self, k: usize, dense: f64) -> f64 {
+        let excess = (dense - self.points.onset[k]).max(0.0);
+        self.points.modulus[k] * self.points.sites[k].volume * excess.powi(3)
     }
 
     /// First and second derivative of a point's energy by its density (J).
@@ -368,6 +374,7 @@ impl Density {
 mod tests {
     use super::*;
     use crate::contact::test_field::wisp;
+    use frisure_rod::potential::Field;
     use glam::DQuat;
 
     /// Straight wisps along x through places in the plane across.
@@ -410,8 +417,8 @@ mod tests {
     }
 
     fn moved(density: &mut Density, step: &[DVec3], fraction: f64) {
-        for (site, x) in density.points.sites.iter_mut().zip(step) {
-            site.position += *x * fraction;
+        for (k, x) in step.iter().enumerate() {
+            density.place_point(k, density.points.sites[k].position + *x * fraction);
         }
         density.measure();
     }
@@ -478,12 +485,24 @@ mod tests {
         // Across the bundle, and within the margin of the search.
         let positions = density.points.sites[36..48].iter().map(|site| site.position);
         let moved: Vec<DVec3> = positions.map(|p| p + DVec3::new(1e-4, 6e-4, -7e-4)).collect();
-        let growth = density.move_guide(3, &moved);
+        let departure = density.departure(3);
+        let arrival = density.arrival(&departure, &moved);
+        let own: f64 = (0..12)
+            .map(|k| {
+                density.around_at(&departure, &arrival).energy(2e-3 * f64::from(k + 1), moved[0])
+            })
+            .zip(&density.points.length[36..48])
+            .map(|(energy, length)| energy * length)
+            .sum();
+        density.arrive(&departure, &moved, &arrival);
+        let growth = arrival.growth;
         let (dense, pressure) = (density.dense.clone(), density.pressure.clone());
         density.measure();
         let expected = others(&density) - before;
         assert!(expected.abs() > 1e-3 * before, "{expected}");
         assert!((growth - expected).abs() < 1e-12 * before, "{growth} {expected}");
+        let expected: f64 = (36..48).map(|k| density.energy(k)).sum();
+        assert!((own - expected).abs() < 1e-12 * expected, "{own} {expected}");
         for (a, b) in dense.iter().zip(&density.dense) {
             assert!((a - b).abs() < 1e-13 * b, "{a} {b}");
         }

@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+/// The factor of [`Kernel`] that makes its integral over space 1.
+pub(super) const WENDLAND: f64 = 21.0 / (2.0 * PI);
+
 /// Wendland's kernel of three dimensions that is twice differentiable (Wendland 1995), over the reach R (m):
 /// `W(r) = 21/(2πR³) (1 − r/R)⁴ (1 + 4 r/R)`, whose integral over space is 1.
 ///
@@ -29,7 +32,7 @@ impl Kernel {
             return 0.0;
         }
         let left = (1.0 - x) * (1.0 - x);
-        21.0 / (2.0 * PI) * self.scale * left * left * (1.0 + 4.0 * x)
+        WENDLAND * self.scale * left * left * (1.0 + 4.0 * x)
     }
 
     /// W′/r (1/m⁵) and W″ (1/m⁵) at a distance (m); both are 0 from the reach on, and equal at 0.

@@ -11,7 +11,8 @@ use super::hessian::{
     Controls, DAMPING_GROWTH, FIRST_DAMPING, JointHessian, LARGEST_DAMPING, Preconditioner,
 };
 use super::line_search::{FARTHEST, FARTHEST_TURNED, TRIALS, accepts};
-use super::state::HeadState;
+use super::state::{GuideArrival, HeadState};
+use crate::contact::Departure;
 use crate::parallel;
 
 /// Relative gradient above which a guide is far from rest, and above which it is if a step by itself would be longer than
@@ -64,17 +65,22 @@ pub(super) fn eliminate(state: &mut HeadState<'_>, guides: &[usize], count: usiz
     let mut left = guides.to_vec();
     for _ in 0..MOST_SEARCHES {
         state.make_room(&lengths);
-        let groups = state.groups(&left);
+        let groups = state.groups_apart(&left);
         let mut active = vec![false; count];
         left.iter().for_each(|&guide| active[guide] = true);
         let mut moved = vec![false; count];
         for _ in 0..MOST_STEPS {
             for group in &groups {
                 let group: Vec<usize> = group.iter().copied().filter(|&i| active[i]).collect();
-                let steps = parallel::map_slice(&group, |&guide| Step::of(state, guide));
-                for (guide, step) in group.into_iter().zip(steps) {
-                    active[guide] = step.is_some_and(|step| step.take(state, guide));
+                // None of a group changes what another feels: at the same time is as good as one after the other.
+                let moves = parallel::map_slice(&group, |&guide| Move::of(state, guide));
+                for (guide, found) in group.into_iter().zip(moves) {
+                    active[guide] = found.is_some();
                     moved[guide] |= active[guide];
+                    if let Some(found) = found {
+                        state.arrive(guide, found.from.as_ref(), found.to);
+                        state.moved_alone(guide, found.length);
+                    }
                 }
             }
             if !active.contains(&true) {
@@ -117,23 +123,31 @@ impl Step {
         let slope = variation.gradient().iter().zip(&way).map(|(g, x)| g.dot(*x)).sum();
         Some(Self { way, length, slope })
     }
+}
 
-    /// Goes along it, halved until the energy is lower by Armijo's condition. Returns whether the guide moved.
-    fn take(&self, state: &mut HeadState<'_>, guide: usize) -> bool {
-        let from = state.shape_of(guide);
+/// A move of one guide that lowers the energy.
+struct Move {
+    from: Option<Departure>,
+    to: GuideArrival,
+    /// How far (m) it moves a node.
+    length: f64,
+}
+
+impl Move {
+    /// A step of Newton's method, halved until the energy is lower by Armijo's condition; `None` near rest, and where none is.
+    fn of(state: &HeadState<'_>, guide: usize) -> Option<Self> {
+        let step = Step::of(state, guide)?;
         let energy = state.energy_of(guide);
-        let (mut fraction, mut growth) = (1.0, 0.0);
+        let from = state.departure(guide);
+        let mut fraction = 1.0;
         for _ in 0..TRIALS {
-            growth += state.go_alone(guide, &from, &self.way, fraction);
-            let found = state.energy_of(guide) + growth;
-            if accepts(energy, found, -self.slope * fraction) {
-                state.moved_alone(guide, fraction * self.length);
-                return true;
+            let to = state.arrival(guide, from.as_ref(), &step.way, fraction);
+            if accepts(energy, to.energy, -step.slope * fraction) {
+                return Some(Self { from, to, length: fraction * step.length });
             }
             fraction *= 0.5;
         }
-        state.go_alone(guide, &from, &self.way, 0.0);
-        false
+        None
     }
 }
 
@@ -182,8 +196,9 @@ mod tests {
         for guide in bent {
             let mut way = vec![DVec3::ZERO; 12];
             way[0] = DVec3::new(0.2, -0.1, 0.1);
-            let from = state.shape_of(guide);
-            state.go_alone(guide, &from, &way, 1.0);
+            let from = state.departure(guide);
+            let to = state.arrival(guide, from.as_ref(), &way, 1.0);
+            state.arrive(guide, from.as_ref(), to);
         }
         state.make_room(&[1.0; 40]);
         state.measure();

@@ -123,24 +123,20 @@ impl<'a> Preconditioner<'a> {
 
 /// xᵀ y, summed guide by guide in their order, so that it does not depend on threads.
 pub(super) fn dot(x: &Controls, y: &Controls) -> f64 {
-    let of_guide = |(x, y): (&Vec<DVec3>, &Vec<DVec3>)| -> f64 {
-        x.iter().zip(y).map(|(a, b)| a.dot(*b)).sum()
-    };
-    x.iter().zip(y).map(of_guide).sum()
+    let of_guide = |i: usize| -> f64 { x[i].iter().zip(&y[i]).map(|(a, b)| a.dot(*b)).sum() };
+    parallel::map(x.len(), of_guide).iter().sum()
 }
 
 /// x ← x + factor · y.
 pub(super) fn add(x: &mut Controls, factor: f64, y: &Controls) {
-    for (a, b) in x.iter_mut().flatten().zip(y.iter().flatten()) {
-        *a += *b * factor;
-    }
+    parallel::for_each_mut(x, |i, x| x.iter_mut().zip(&y[i]).for_each(|(a, b)| *a += *b * factor));
 }
 
 /// x ← y + factor · x.
 pub(super) fn add_scaled(x: &mut Controls, factor: f64, y: &Controls) {
-    for (a, b) in x.iter_mut().flatten().zip(y.iter().flatten()) {
-        *a = *b + *a * factor;
-    }
+    parallel::for_each_mut(x, |i, x| {
+        x.iter_mut().zip(&y[i]).for_each(|(a, b)| *a = *b + *a * factor);
+    });
 }
 
 /// −x.

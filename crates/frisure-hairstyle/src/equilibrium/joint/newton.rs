@@ -11,6 +11,7 @@ use super::hessian::{
 };
 use super::line_search::{FARTHEST, FARTHEST_TURNED, TRIALS, accepts};
 use super::state::HeadState;
+use crate::parallel;
 
 /// Most iterations of conjugate gradients in a step: a guard.
 const MOST_CG: usize = 200;
@@ -133,9 +134,11 @@ fn room(gone: &[Vec<DVec3>], moved: &[Vec<DVec3>]) -> f64 {
         let c = (FARTHEST * FARTHEST - u.length_squared()).max(0.0);
         if a > 0.0 { c / (b + (b * b + a * c).sqrt()) } else { f64::INFINITY }
     };
-    let pairs = gone.iter().flatten().zip(moved.iter().flatten());
     // 0/0 where a point is at its limit and moves straight out: no room.
-    pairs.map(of).map(|t| if t.is_nan() { 0.0 } else { t }).fold(f64::INFINITY, f64::min)
+    let defined = |t: f64| if t.is_nan() { 0.0 } else { t };
+    let of_guide =
+        |i: usize| gone[i].iter().zip(&moved[i]).map(of).map(defined).fold(f64::INFINITY, f64::min);
+    parallel::map(gone.len(), of_guide).into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// Goes along a step, halved until the energy is lower; gives the energy (J) there. The guides stay if no trial is lower.

@@ -4,7 +4,7 @@ use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
 use super::hessian::Coupling;
-use crate::contact::{ContactPairs, Density};
+use crate::contact::{Arrival, ContactPairs, Density, Departure};
 use crate::parallel;
 
 /// The energy that guides share.
@@ -77,28 +77,66 @@ impl Others {
         }
     }
 
-    /// Moves the points (m) of one guide alone; gives by how much the energy of all others grows (J) besides what [`Self::around`] has.
-    pub(super) fn move_guide(&mut self, guide: usize, points: Vec<DVec3>) -> f64 {
+    /// What the energy that guides share loses if one leaves where it is; nothing, where it is known from places alone.
+    pub(super) fn departure(&self, guide: usize) -> Option<Departure> {
         match self {
-            Self::Pairs(pairs) => {
-                pairs.place(guide, points);
-                0.0
-            }
-            Self::Density(density) => density.move_guide(guide, &points),
-            Self::Apart => 0.0,
+            Self::Density(density) => Some(density.departure(guide)),
+            Self::Pairs(_) | Self::Apart => None,
         }
     }
 
-    /// Guides in groups of which no two can come near each other, taken in the given order.
-    pub(super) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
+    /// What it is if the guide that has left arrives at other places (m).
+    pub(super) fn arrival(&self, from: Option<&Departure>, points: &[DVec3]) -> Option<Arrival> {
+        match self {
+            Self::Density(density) => from.map(|from| density.arrival(from, points)),
+            Self::Pairs(_) | Self::Apart => None,
+        }
+    }
+
+    /// The guide's own part of the energy where it arrives.
+    pub(super) fn around_at<'a>(
+        &'a self,
+        guide: usize,
+        from: Option<&Departure>,
+        arrival: Option<&'a Arrival>,
+    ) -> Box<dyn Field + 'a> {
+        match (self, from, arrival) {
+            (Self::Density(density), Some(from), Some(arrival)) => {
+                Box::new(density.around_at(from, arrival))
+            }
+            _ => self.around(guide),
+        }
+    }
+
+    /// Moves the points (m) of one guide alone to where it arrives.
+    pub(super) fn arrive(
+        &mut self,
+        guide: usize,
+        from: Option<&Departure>,
+        points: Vec<DVec3>,
+        arrival: Option<&Arrival>,
+    ) {
+        match (self, from, arrival) {
+            (Self::Pairs(pairs), ..) => {
+                pairs.place(guide, points);
+            }
+            (Self::Density(density), Some(from), Some(arrival)) => {
+                density.arrive(from, &points, arrival);
+            }
+            _ => {}
+        }
+    }
+
+    /// Guides in groups of which no two can come near each other, or near the same guide, taken in the given order.
+    pub(super) fn groups_apart(&self, order: &[usize]) -> Vec<Vec<usize>> {
         match self {
             Self::Pairs(pairs) => pairs.groups(order),
-            Self::Density(density) => density.groups(order),
+            Self::Density(density) => density.groups_apart(order),
             Self::Apart => vec![order.to_vec()],
         }
     }
 
-    /// Measures what [`Self::move_guide`] left to be measured.
+    /// Measures where all guides are, at first and after [`Self::arrive`].
     pub(super) fn measure(&mut self) {
         if let Self::Density(density) = self {
             density.measure();
@@ -109,10 +147,8 @@ impl Others {
     pub(super) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
         match self {
             Self::Pairs(pairs) => pairs.update_neighbours(margins, again),
-            Self::Density(density) => {
-                density.update_neighbours(margins, again);
-                density.measure();
-            }
+            // Who may touch whom changes no density.
+            Self::Density(density) => density.update_neighbours(margins, again),
             Self::Apart => {}
         }
     }

@@ -13,7 +13,7 @@ use super::super::wisp::{
 };
 use super::hessian::{Controls, JointHessian};
 use super::others::Others;
-use crate::contact::{Density, FrictionGap, Layer, Pull, SwitchDistance};
+use crate::contact::{Arrival, Density, Departure, FrictionGap, Layer, Pull, SwitchDistance};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -52,6 +52,15 @@ pub(super) struct HeadState<'a> {
     drift: Vec<f64>,
 }
 
+/// Where one guide would be, while all others hold still.
+pub(super) struct GuideArrival {
+    settled: Settled,
+    points: Vec<DVec3>,
+    arrival: Option<Arrival>,
+    /// The guide's own part of the energy, and by how much that of all others grows (J).
+    pub(super) energy: f64,
+}
+
 impl<'a> HeadState<'a> {
     pub(super) fn new(
         spec: &HairstyleSpec,
@@ -86,6 +95,7 @@ impl<'a> HeadState<'a> {
             drift: vec![f64::INFINITY; count],
         };
         state.make_room(&vec![0.0; count]);
+        state.measure();
         state
     }
 
@@ -205,9 +215,9 @@ impl<'a> HeadState<'a> {
         JointHessian { guides, coupling }
     }
 
-    /// Guides in groups of which no two can come near each other, taken in the given order.
-    pub(super) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
-        self.others.groups(order)
+    /// Guides in groups of which no two change what the other feels, taken in the given order.
+    pub(super) fn groups_apart(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        self.others.groups_apart(order)
     }
 
     /// The second variation of the energy by one guide while all others hold still.
@@ -241,21 +251,34 @@ impl<'a> HeadState<'a> {
         self.reach[guide] - self.drift[guide]
     }
 
-    pub(super) fn shape_of(&self, guide: usize) -> Settled {
-        self.wisps[guide].settled().clone()
+    /// What the energy of all loses if one guide leaves where it is.
+    pub(super) fn departure(&self, guide: usize) -> Option<Departure> {
+        self.others.departure(guide)
     }
 
-    /// Lets one guide go a fraction of a step from a given shape; gives by how much the energy of all others grows (J).
-    /// [`Self::measure`] has to follow.
-    pub(super) fn go_alone(
-        &mut self,
+    /// Where a fraction of a step would take one guide, which has left.
+    pub(super) fn arrival(
+        &self,
         guide: usize,
-        from: &Settled,
+        from: Option<&Departure>,
         step: &[DVec3],
         fraction: f64,
-    ) -> f64 {
-        let points = self.wisps[guide].go(from, step, fraction);
-        self.others.move_guide(guide, points)
+    ) -> GuideArrival {
+        let wisp = &self.wisps[guide];
+        let settled = wisp.after(step, fraction);
+        let points = wisp.points_at(&settled);
+        let arrival = self.others.arrival(from, &points);
+        let around = self.others.around_at(guide, from, arrival.as_ref());
+        let own = wisp.share_at(&settled, &*around, self.anchors[guide].as_ref());
+        drop(around);
+        let energy = own + arrival.as_ref().map_or(0.0, |arrival| arrival.growth);
+        GuideArrival { settled, points, arrival, energy }
+    }
+
+    /// Moves one guide alone to where it arrives. [`Self::measure`] has to follow.
+    pub(super) fn arrive(&mut self, guide: usize, from: Option<&Departure>, to: GuideArrival) {
+        self.others.arrive(guide, from, to.points, to.arrival.as_ref());
+        self.wisps[guide].take(to.settled);
     }
 
     /// Counts a move (m) of one guide.

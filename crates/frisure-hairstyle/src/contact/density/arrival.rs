@@ -1,0 +1,125 @@
+//! What one guide that moves alone changes of the density of all, without moving it yet.
+
+use frisure_rod::potential::Field;
+use glam::{DMat3, DVec3};
+
+use super::hair::{Density, Site};
+
+/// What density loses at the points that may be near a guide if the guide leaves where it is.
+pub(crate) struct Departure {
+    guide: usize,
+    /// Where the points of each guide begin in `changes`, of guides that are not near anything.
+    starts: Vec<u32>,
+    /// The points of near guides, as one range of all points for each.
+    near: Vec<std::ops::Range<usize>>,
+    /// Change of density at each of them.
+    changes: Vec<f64>,
+}
+
+/// What density is if the guide is at other places.
+pub(crate) struct Arrival {
+    /// Change of density at each point of a near guide, with what its departure takes.
+    changes: Vec<f64>,
+    /// Density at each point of the guide.
+    dense: Vec<f64>,
+    /// By how much the energy of all other points grows (J).
+    pub(crate) growth: f64,
+}
+
+impl Density {
+    /// A guide leaves where it is.
+    pub(crate) fn departure(&self, guide: usize) -> Departure {
+        let mut starts = vec![0; self.starts.len() - 1];
+        let (mut near, mut count) = (Vec::new(), 0);
+        for other in self.near_guides(guide) {
+            let points = self.of_guide(other);
+            starts[other] = count as u32;
+            count += points.len();
+            near.push(points);
+        }
+        let mut departure = Departure { guide, starts, near, changes: vec![0.0; count] };
+        let mut changes = std::mem::take(&mut departure.changes);
+        for k in self.of_guide(guide) {
+            let own = &self.points.sites[k];
+            self.for_each_close_to(k, own, |l| {
+                changes[departure.place(self, l)] -= self.points.sites[l].density_of(own);
+            });
+        }
+        departure.changes = changes;
+        departure
+    }
+
+    /// A guide that has left arrives at other places (m), which are within the margin of the last search.
+    pub(crate) fn arrival(&self, from: &Departure, positions: &[DVec3]) -> Arrival {
+        let mut changes = from.changes.clone();
+        let at = |(k, &position): (usize, &DVec3)| {
+            let own = Site { position, ..self.points.sites[k] };
+            let mut dense = self.points.own[k];
+            self.for_each_close_to(k, &own, |l| {
+                let other = &self.points.sites[l];
+                dense += own.density_of(other);
+                changes[from.place(self, l)] += other.density_of(&own);
+            });
+            dense
+        };
+        let dense = (self.starts[from.guide]..).zip(positions).map(at).collect();
+        let mut growth = 0.0;
+        for (l, &change) in from.near.iter().cloned().flatten().zip(&changes) {
+            if change != 0.0 {
+                growth += self.energy_at(l, self.dense[l] + change) - self.energy(l);
+            }
+        }
+        Arrival { changes, dense, growth }
+    }
+
+    /// Moves the guide to where it arrives.
+    ///
+    /// What is added to a density and taken away again leaves a rounding error there until [`Self::measure`].
+    pub(crate) fn arrive(&mut self, from: &Departure, positions: &[DVec3], arrival: &Arrival) {
+        for (l, &change) in from.near.iter().cloned().flatten().zip(&arrival.changes) {
+            if change != 0.0 {
+                self.set_dense(l, self.dense[l] + change);
+            }
+        }
+        for ((k, &position), &dense) in
+            (self.starts[from.guide]..).zip(positions).zip(&arrival.dense)
+        {
+            self.place_point(k, position);
+            self.set_dense(k, dense);
+        }
+    }
+
+    /// The energy of the guide's own points where it arrives, as a field.
+    pub(crate) fn around_at<'a>(&'a self, from: &Departure, arrival: &'a Arrival) -> Arrived<'a> {
+        Arrived { density: self, guide: from.guide, dense: &arrival.dense }
+    }
+}
+
+impl Departure {
+    /// Where a point is in the changes.
+    #[inline]
+    fn place(&self, density: &Density, l: usize) -> usize {
+        let other = density.points.guide[l] as usize;
+        self.starts[other] as usize + l - density.starts[other]
+    }
+}
+
+/// One guide in the density that is where it arrives, as a field: the guide's own term of the sum over the head, at its points. It has no
+/// derivatives.
+pub(crate) struct Arrived<'a> {
+    density: &'a Density,
+    guide: usize,
+    dense: &'a [f64],
+}
+
+impl Field for Arrived<'_> {
+    fn energy(&self, s: f64, _: DVec3) -> f64 {
+        let k = self.density.point_at(self.guide, s);
+        let dense = self.dense[k - self.density.starts[self.guide]];
+        self.density.energy_at(k, dense) / self.density.points.length[k]
+    }
+
+    fn derivatives(&self, _: f64, _: DVec3) -> Option<(DVec3, DMat3)> {
+        None
+    }
+}
