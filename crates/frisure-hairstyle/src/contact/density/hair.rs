@@ -53,13 +53,13 @@ pub(crate) struct Density {
     /// The points again, each with half of the reach of its kernel, for a first look at what is near.
     sieve: Sieve,
     /// The points once more, for sums over many of them.
-    pub(super) lanes: SiteLanes,
+    lanes: SiteLanes,
     /// What may be within reach of the points of each guide.
     near: NearLists,
     /// Fraction of space that hair takes at each point.
     pub(super) dense: Vec<f64>,
     /// Derivative (J) of the energy of each point by its density.
-    pub(super) pressure: Vec<f64>,
+    pressure: Vec<f64>,
 }
 
 /// What is known of every point, in the order of guides.
@@ -254,7 +254,7 @@ impl Density {
                 let own = SievePoint::new(site.position, site.half_reach);
                 runs.clear();
                 self.sieve.for_each_close_run(own, self.near_to(k), |run, close| {
-                    let first = self.starts[run.guide as usize] as u32 + run.first;
+                    let first = self.starts[run.guide as usize] + run.first as usize;
                     runs.push(CloseRun { first, close });
                 });
                 self.points.own[k] + self.lanes.density(site, &runs)
@@ -282,9 +282,12 @@ impl Density {
 pub(super) struct Pair {
     pub(super) other: u32,
     /// ∇W by the own point (1/m⁴).
-    slope: DVec3,
-    /// q of the part `q ∇W ∇Wᵀ` (N m⁷) of what both feel that stiffens.
-    stiff: f64,
+    pub(super) slope: DVec3,
+    /// Of the pressure that both feel, `t I + q ∇W ∇Wᵀ` (N/m): t, and q (N m⁷).
+    pub(super) across: f64,
+    pub(super) along: f64,
+    /// q of the part that stiffens, without t (N m⁷).
+    pub(super) stiff: f64,
 }
 
 impl Density {
@@ -326,8 +329,12 @@ impl Density {
             let pressure = own * other.volume + theirs * site.volume;
             let slope = away * across;
             let square = slope.length_squared();
+            let along = if square > 0.0 { pressure * (bend - across) / square } else { 0.0 };
+            // At the very centre both vanish together: W″ = W′/r.
+            let along = if distance > 1e-9 { along } else { 0.0 };
             let stiff = if bend > 0.0 && square > 0.0 { pressure * bend / square } else { 0.0 };
-            pressed(&Pair { other: l as u32, slope, stiff });
+            let across = pressure * across;
+            pressed(&Pair { other: l as u32, slope, across, along, stiff });
         });
     }
 

@@ -5,9 +5,6 @@ use std::f64::consts::PI;
 /// The factor of [`Kernel`] that makes its integral over space 1.
 pub(super) const WENDLAND: f64 = 21.0 / (2.0 * PI);
 
-/// The factor of its derivatives.
-pub(super) const SLOPE: f64 = -210.0 / PI;
-
 /// Wendland's kernel of three dimensions that is twice differentiable (Wendland 1995), over the reach R (m):
 /// `W(r) = 21/(2πR³) (1 − r/R)⁴ (1 + 4 r/R)`, whose integral over space is 1.
 ///
@@ -47,7 +44,7 @@ impl Kernel {
         }
         let left = 1.0 - x;
         // W′ = −20 x (1 − x)³ · 21/(2πR⁴), W″ = −20 (1 − x)² (1 − 4x) · 21/(2πR⁵).
-        let scale = SLOPE * self.scale / (self.reach * self.reach) * left * left;
+        let scale = -210.0 / PI * self.scale / (self.reach * self.reach) * left * left;
         (scale * left, scale * (1.0 - 4.0 * x))
     }
 

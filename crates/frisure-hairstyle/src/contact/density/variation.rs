@@ -5,60 +5,60 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::parallel;
 use glam::{DMat3, DVec3};
 
-use super::hair::{Density, Site};
-use super::lanes::{CloseRun, Pressed, SiteLanes, VectorLanes};
-use crate::contact::sieve;
+use super::hair::{Density, Pair};
 
 /// The derivatives of the energy of density at one state of the head.
 pub(crate) struct DensityVariation {
     starts: Vec<usize>,
-    sites: Vec<Site>,
-    lanes: SiteLanes,
-    /// What the points of each guide press on.
+    /// The pairs of the points of each guide.
     pairs: Vec<Pairs>,
-    /// First and second derivative of a point's energy by its density (J); after the last point there are as many more as are summed at once.
-    pressure: Vec<f64>,
+    volume: Vec<f64>,
+    /// Second derivative of a point's energy by its density (J).
     bulk: Vec<f64>,
     /// [`Density::derivatives`] of each point.
     derivatives: Vec<Option<(DVec3, DMat3)>>,
 }
 
-/// What the points of one guide press on. What a pair does is computed each time: it takes less than to read it from memory.
+/// The pairs of the points of one guide: what the change of density needs of them apart from the rest, since memory is what limits a
+/// product.
 #[derive(Default)]
 struct Pairs {
-    /// Where the runs of each point begin; one more than points.
+    /// Where those of each point begin; one more than points.
     starts: Vec<u32>,
-    runs: Vec<CloseRun>,
+    others: Vec<u32>,
+    /// [`Pair::slope`]
+    slopes: Vec<DVec3>,
+    /// [`Pair::across`] and [`Pair::along`]
+    pressed: Vec<[f64; 2]>,
 }
 
 impl Pairs {
-    /// Adds to what the last point presses on.
-    fn push(&mut self, other: u32) {
-        let begins = self.starts.last().is_none_or(|&start| self.runs.len() == start as usize);
-        match self.runs.last_mut() {
-            Some(last)
-                if !begins && (last.first..last.first + sieve::LANES as u32).contains(&other) =>
-            {
-                last.close |= 1 << (other - last.first);
-            }
-            _ => self.runs.push(CloseRun { first: other, close: 1 }),
-        }
+    fn push(&mut self, pair: &Pair) {
+        self.others.push(pair.other);
+        self.slopes.push(pair.slope);
+        self.pressed.push([pair.across, pair.along]);
     }
 
     /// What is pushed from now on is of the next point.
     fn begin_point(&mut self) {
-        self.starts.push(self.runs.len() as u32);
+        self.starts.push(self.others.len() as u32);
     }
 
     fn finish(mut self) -> Self {
         self.begin_point();
-        self.runs.shrink_to_fit();
+        // Where many guides press on each other these lists are the largest part of the memory.
+        self.others.shrink_to_fit();
+        self.slopes.shrink_to_fit();
+        self.pressed.shrink_to_fit();
         self
     }
 
-    /// What a point of the guide presses on.
-    fn of_point(&self, i: usize) -> &[CloseRun] {
-        &self.runs[self.starts[i] as usize..self.starts[i + 1] as usize]
+    /// The others of a point of the guide, their slopes and how they are pressed.
+    fn of_point(&self, i: usize) -> impl Iterator<Item = (usize, DVec3, [f64; 2])> + '_ {
+        let range = self.starts[i] as usize..self.starts[i + 1] as usize;
+        let others = self.others[range.clone()].iter().map(|&l| l as usize);
+        let slopes = self.slopes[range.clone()].iter().copied();
+        others.zip(slopes).zip(&self.pressed[range]).map(|((l, slope), of)| (l, slope, *of))
     }
 }
 
@@ -71,7 +71,7 @@ impl Density {
             let derivatives = self.of_guide(guide).map(|k| {
                 pairs.begin_point();
                 let felt = felt[k].load(Ordering::Relaxed);
-                felt.then(|| self.derivatives_with(k, |pair| pairs.push(pair.other))).flatten()
+                felt.then(|| self.derivatives_with(k, |pair| pairs.push(pair))).flatten()
             });
             let derivatives: Vec<_> = derivatives.collect();
             (pairs.finish(), derivatives)
@@ -80,10 +80,8 @@ impl Density {
             parallel::map(self.starts.len() - 1, of_guide).into_iter().unzip();
         DensityVariation {
             starts: self.starts.clone(),
-            sites: self.points.sites.clone(),
-            lanes: self.lanes.clone(),
             pairs,
-            pressure: padded(self.pressure.clone()),
+            volume: self.points.sites.iter().map(|site| site.volume).collect(),
             bulk: (0..count).map(|k| self.by_density(k).1).collect(),
             derivatives: derivatives.concat(),
         }
@@ -112,41 +110,35 @@ impl DensityVariation {
 
     /// For displacements (m) of all points, the change of force (N) at each that the second variations of guides do not have.
     pub(crate) fn forces(&self, moved: &[&[DVec3]]) -> Vec<Vec<DVec3>> {
-        let all = moved.iter().flat_map(|points| points.iter().copied());
-        let all = VectorLanes::new(all, self.sites.len());
+        let moved: Vec<DVec3> = moved.iter().flat_map(|points| points.iter().copied()).collect();
         let points = |guide: usize| (self.starts[guide]..self.starts[guide + 1]).enumerate();
         // 1. How density changes at each point, and with it the pressure.
-        let changes = parallel::map(self.pairs.len(), |guide| {
-            let change = |(i, k): (usize, usize)| {
+        let pressures = parallel::map(self.pairs.len(), |guide| {
+            let pressure = |(i, k): (usize, usize)| {
                 if self.bulk[k] == 0.0 {
                     return 0.0;
                 }
-                let (moved, runs) = ((moved[guide][i], &all), self.pairs[guide].of_point(i));
-                self.bulk[k] * self.lanes.density_change(&self.sites[k], moved, runs)
+                let of = |(l, slope, _): (usize, DVec3, _)| {
+                    self.volume[l] * slope.dot(moved[k] - moved[l])
+                };
+                self.bulk[k] * self.pairs[guide].of_point(i).map(of).sum::<f64>()
             };
-            points(guide).map(change).collect::<Vec<f64>>()
+            points(guide).map(pressure).collect::<Vec<f64>>()
         });
-        let changes = padded(changes.concat());
+        let pressures = pressures.concat();
         // 2. The force of that, and of pairs that turn and come nearer.
         parallel::map(self.pairs.len(), |guide| {
             let force = |(i, k): (usize, usize)| {
                 let Some((_, block)) = self.derivatives[k] else { return DVec3::ZERO };
-                let own = Pressed {
-                    site: &self.sites[k],
-                    moved: moved[guide][i],
-                    pressure: self.pressure[k],
-                    change: changes[k],
-                };
-                let runs = self.pairs[guide].of_point(i);
-                self.lanes.force(&own, &all, [&self.pressure, &changes], runs) - block * own.moved
+                let mut sum = DVec3::ZERO;
+                for (l, slope, [across, along]) in self.pairs[guide].of_point(i) {
+                    let apart = moved[k] - moved[l];
+                    let squeezed = pressures[k] * self.volume[l] + pressures[l] * self.volume[k];
+                    sum += apart * across + slope * (along * slope.dot(apart) + squeezed);
+                }
+                sum - block * moved[k]
             };
             points(guide).map(force).collect()
         })
     }
-}
-
-/// The numbers of all points, with as many more as are summed at once.
-fn padded(mut numbers: Vec<f64>) -> Vec<f64> {
-    numbers.resize(numbers.len() + sieve::LANES, 0.0);
-    numbers
 }

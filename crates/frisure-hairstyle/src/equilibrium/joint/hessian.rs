@@ -27,7 +27,7 @@ pub(super) enum Coupling {
     /// What each guide touches.
     Pairs(Vec<Vec<Contact>>),
     /// That of density.
-    Density(Box<DensityVariation>),
+    Density(DensityVariation),
 }
 
 impl Coupling {

@@ -183,7 +183,7 @@ impl Others {
     pub(super) fn coupling(&self, guides: usize) -> Coupling {
         match self {
             Self::Pairs(pairs) => Coupling::Pairs(parallel::map(guides, |i| pairs.contacts(i))),
-            Self::Density(density) => Coupling::Density(Box::new(density.variation())),
+            Self::Density(density) => Coupling::Density(density.variation()),
             Self::Apart => Coupling::Pairs(vec![Vec::new(); guides]),
         }
     }
