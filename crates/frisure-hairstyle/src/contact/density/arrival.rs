@@ -1,19 +1,28 @@
 //! What one guide that moves alone changes of the density of all, without moving it yet.
 
+use std::ops::Range;
+
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
-use super::hair::{Density, Site};
+use super::hair::Density;
+use super::site::Site;
 
 /// What density loses at the points that may be near a guide if the guide leaves where it is.
 pub(crate) struct Departure {
     guide: usize,
-    /// Where the points of each guide begin in `changes`, of guides that are not near anything.
-    starts: Vec<u32>,
-    /// The points of near guides, as one range of all points for each.
-    near: Vec<std::ops::Range<usize>>,
+    near: NearPoints,
     /// Change of density at each of them.
     changes: Vec<f64>,
+}
+
+/// The points of the guides that may be near one, in the order of guides.
+struct NearPoints {
+    /// Those of each near guide, as a range of all points.
+    ranges: Vec<Range<usize>>,
+    /// For each guide that is near, which of these its first point is.
+    first: Vec<u32>,
+    count: usize,
 }
 
 /// What density is if the guide is at other places.
@@ -29,24 +38,15 @@ pub(crate) struct Arrival {
 impl Density {
     /// A guide leaves where it is.
     pub(crate) fn departure(&self, guide: usize) -> Departure {
-        let mut starts = vec![0; self.starts.len() - 1];
-        let (mut near, mut count) = (Vec::new(), 0);
-        for other in self.near_guides(guide) {
-            let points = self.of_guide(other);
-            starts[other] = count as u32;
-            count += points.len();
-            near.push(points);
-        }
-        let mut departure = Departure { guide, starts, near, changes: vec![0.0; count] };
-        let mut changes = std::mem::take(&mut departure.changes);
+        let near = NearPoints::of(self, guide);
+        let mut changes = vec![0.0; near.count];
         for k in self.of_guide(guide) {
             let own = &self.points.sites[k];
             self.for_each_close_to(k, own, |l| {
-                changes[departure.place(self, l)] -= self.points.sites[l].density_of(own);
+                changes[near.place(self, l)] -= self.points.sites[l].density_of(own);
             });
         }
-        departure.changes = changes;
-        departure
+        Departure { guide, near, changes }
     }
 
     /// A guide that has left arrives at other places (m), which are within the margin of the last search.
@@ -58,13 +58,13 @@ impl Density {
             self.for_each_close_to(k, &own, |l| {
                 let other = &self.points.sites[l];
                 dense += own.density_of(other);
-                changes[from.place(self, l)] += other.density_of(&own);
+                changes[from.near.place(self, l)] += other.density_of(&own);
             });
             dense
         };
         let dense = (self.starts[from.guide]..).zip(positions).map(at).collect();
         let mut growth = 0.0;
-        for (l, &change) in from.near.iter().cloned().flatten().zip(&changes) {
+        for (l, &change) in from.near.iter().zip(&changes) {
             if change != 0.0 {
                 growth += self.energy_at(l, self.dense[l] + change) - self.energy(l);
             }
@@ -76,7 +76,7 @@ impl Density {
     ///
     /// What is added to a density and taken away again leaves a rounding error there until [`Self::measure`].
     pub(crate) fn arrive(&mut self, from: &Departure, positions: &[DVec3], arrival: &Arrival) {
-        for (l, &change) in from.near.iter().cloned().flatten().zip(&arrival.changes) {
+        for (l, &change) in from.near.iter().zip(&arrival.changes) {
             if change != 0.0 {
                 self.set_dense(l, self.dense[l] + change);
             }
@@ -95,12 +95,28 @@ impl Density {
     }
 }
 
-impl Departure {
-    /// Where a point is in the changes.
+impl NearPoints {
+    fn of(density: &Density, guide: usize) -> Self {
+        let mut first = vec![0; density.starts.len() - 1];
+        let (mut ranges, mut count) = (Vec::new(), 0);
+        for other in density.near_guides(guide) {
+            let points = density.of_guide(other);
+            first[other] = count as u32;
+            count += points.len();
+            ranges.push(points);
+        }
+        Self { ranges, first, count }
+    }
+
+    /// Which of them a point is.
     #[inline]
     fn place(&self, density: &Density, l: usize) -> usize {
-        let other = density.points.guide[l] as usize;
-        self.starts[other] as usize + l - density.starts[other]
+        let guide = density.points.guide[l] as usize;
+        self.first[guide] as usize + l - density.starts[guide]
+    }
+
+    fn iter(&self) -> impl Iterator<Item = usize> {
+        self.ranges.iter().cloned().flatten()
     }
 }
 

@@ -6,8 +6,8 @@ use fearless_simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, dispatch, f64x4, mask64x4,
 };
 
-use super::hair::Site;
 use super::kernel::WENDLAND;
+use super::site::Site;
 use crate::contact::sieve;
 
 /// Points that are summed at once: half of those of a run.

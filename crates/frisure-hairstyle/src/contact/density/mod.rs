@@ -8,6 +8,7 @@ mod field;
 mod hair;
 mod kernel;
 mod lanes;
+mod site;
 mod variation;
 
 pub(crate) use arrival::{Arrival, Departure};
