@@ -206,6 +206,10 @@ def test_workers_of_a_loader_share_the_heads(folder: Path) -> None:
 
     seen = data.torch_dataset(folder, ["strand"], per="view", transform=lambda view: (view["index"], view["view"]))
     assert sorted(seen) == [(index, view) for index in range(5) for view in range(3)]
+    with pytest.raises(frisure.ArgumentError, match=r"`shard` is \(\)"):
+        data.torch_dataset(folder, shard=())  # type: ignore[arg-type]
+    with pytest.raises(frisure.ArgumentTypeError, match="`transform` is 3; it must be a function"):
+        data.torch_dataset(folder, transform=3)  # type: ignore[arg-type]
     ranks = [data.torch_dataset(folder, ["drop"], shard=(rank, 2)) for rank in range(2)]
     assert sorted(head["index"] for rank in ranks for head in rank) == [0, 1, 2, 3, 4]
     orders = set()

@@ -89,6 +89,19 @@ def test_attributes_have_a_value_for_each_strand_or_point(hair: frisure.Hairstyl
     assert np.array_equal(hair.guides.attributes["id"], np.arange(30))
 
 
+def test_strands_are_neither_replaced_nor_searched(hair: frisure.Hairstyle) -> None:
+    strands = hair.strands
+    for name in ("points", "attributes", "colour"):
+        with pytest.raises(AttributeError, match=f"`{name}` of strands cannot be set"):
+            setattr(strands, name, strands.points)
+    with pytest.raises(AttributeError, match="cannot be deleted"):
+        del strands.radii
+    with pytest.raises(TypeError):
+        strands.attributes["id"] = strands.radii  # type: ignore[index]
+    with pytest.raises(frisure.ArgumentTypeError, match=r"by their index: `strands\[h\]`"):
+        assert strands[0] in strands
+
+
 def test_arrays_are_not_copied_and_outlive_the_hairstyle() -> None:
     hair = frisure.predict(SMALL)
     data = hair._prediction.hairs(None)

@@ -36,12 +36,12 @@ class TorchDataset(torch.utils.data.IterableDataset):  # type: ignore[misc, type
         self._epoch = whole("epoch", epoch, 0)
 
     def __iter__(self) -> Iterator[Any]:
-        rank, processes = self._shard or _process()
+        rank, processes = _process() if self._shard is None else self._shard
         worker = torch.utils.data.get_worker_info()
         place, workers = (worker.id, worker.num_workers) if worker else (0, 1)
         seed = None if self._shuffle is None else self._shuffle + self._epoch
         rows = self._rows(seed, (rank * workers + place, processes * workers))
-        return map(self._transform, rows) if self._transform else rows
+        return rows if self._transform is None else map(self._transform, rows)
 
 
 def _process() -> tuple[int, int]:

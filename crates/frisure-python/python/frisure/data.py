@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 
 from frisure._check import names as _names
 from frisure._check import path as _path
-from frisure._check import whole
+from frisure._check import shown, whole
 from frisure._frisure import read_png
-from frisure.errors import ArgumentError
+from frisure.errors import ArgumentError, ArgumentTypeError
 
 __all__ = ["heads", "torch_dataset", "views"]
 
@@ -123,8 +123,9 @@ def torch_dataset(
         raise ArgumentError(f"`per` is {per!r}; it must be 'head' or 'view'")
     if per == "view" and not source.has_views:
         raise ArgumentError(f"`{folder}` has no views: its batch has no table `[views]`")
-    if shuffle is not None or shard is not None:
-        _order(shuffle, shard or (0, 1))
+    _order(shuffle, (0, 1) if shard is None else shard)
+    if transform is not None and not callable(transform):
+        raise ArgumentTypeError(f"`transform` is {shown(transform)}; it must be a function of a row, or None")
     return TorchDataset(source.heads if per == "head" else source.views, shuffle, shard, transform)
 
 

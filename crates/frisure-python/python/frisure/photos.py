@@ -26,6 +26,9 @@ RANGES = {
 }
 """What can be given of the fibres, as `frisure_engine::photo` has it."""
 
+LEAST_SIDE = 32
+"""Pixels of the shorter side of a photo or a crop, as `frisure_measure::Photo` asks for."""
+
 
 @dataclass(frozen=True, eq=False)
 class Measured:
@@ -102,6 +105,10 @@ def measure(
             raise ArgumentError(
                 f"photo has the shape {photo.shape} and the type {photo.dtype}; it must be (height, width, 3 or 4) of uint8"
             )
+        if min(photo.shape[:2]) < LEAST_SIDE:
+            raise ArgumentError(
+                f"photo has the shape {photo.shape}; its height and width must be at least {LEAST_SIDE} pixels"
+            )
     elif not isinstance(photo, (str, os.PathLike)):
         raise ArgumentTypeError(f"photo is a {type(photo).__name__}; it must be a path or an array of uint8")
     else:
@@ -141,7 +148,8 @@ def _part(crop: Any) -> tuple[int, int, int, int] | None:
         return None
     try:
         left, top, width, height = (whole("crop", number, 0, sys.maxsize) for number in crop)
+        whole("crop", min(width, height), LEAST_SIDE)
     except (TypeError, ValueError):
-        allowed = f"four whole numbers from 0 to {sys.maxsize}: left, top, width and height (pixels)"
+        allowed = "four whole numbers (pixels): left and top from 0, width and height from 32"
         raise ArgumentError(f"crop is {shown(crop)}; it must be {allowed}") from None
     return left, top, width, height

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, Union, overload
 
 import numpy as np
@@ -39,18 +40,37 @@ class Strands:
     - `attributes`: arrays by name, (H,) or (H, k) for a value per strand, (N,) or (N, k) for a value per point.
 
     `strands[h]` are the points of one strand, and `strands.curves` all of them as (H, P, 3), where every strand has P
-    points. No array is a copy, and none can be written to; `array.copy()` can.
+    points. No array is a copy, and none can be written to or replaced; `array.copy()` can.
     """
 
+    points: Float32
+    radii: Float32
+    offsets: UInt32
+    attributes: Mapping[str, Union[Float32, UInt32]]
+    per_point: frozenset[str]
+    """The names of the attributes with a value per point."""
+
     def __init__(self, data: StrandData) -> None:
-        self.points: Float32 = _array(data.points())
-        self.radii: Float32 = _array(data.radii())
-        self.offsets: UInt32 = _array(data.offsets())
-        self.attributes: Mapping[str, Union[Float32, UInt32]] = {
-            name: _attribute(data, name) for name, _ in data.attributes()
-        }
-        self.per_point: frozenset[str] = frozenset(n for n, point in data.attributes() if point)
-        """The names of the attributes with a value per point."""
+        attributes = {name: _attribute(data, name) for name, _ in data.attributes()}
+        per_point = frozenset(n for n, point in data.attributes() if point)
+        self._set(_array(data.points()), _array(data.radii()), _array(data.offsets()), attributes, per_point)
+
+    def _set(
+        self,
+        points: Float32,
+        radii: Float32,
+        offsets: UInt32,
+        attributes: Mapping[str, Union[Float32, UInt32]],
+        per_point: frozenset[str],
+    ) -> None:
+        found = {"points": points, "radii": radii, "offsets": offsets, "per_point": per_point}
+        self.__dict__.update(found, attributes=MappingProxyType(dict(attributes)))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"`{name}` of strands cannot be set: hair is changed by its scene and its steps")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"`{name}` of strands cannot be deleted")
 
     @property
     def counts(self) -> UInt32:
@@ -91,6 +111,10 @@ class Strands:
     def __iter__(self) -> Iterator[Float32]:
         return (self[i] for i in range(len(self)))
 
+    def __contains__(self, strand: object) -> bool:
+        # Python would compare arrays.
+        raise ArgumentTypeError("strands are found by their index: `strands[h]`, with h below `len(strands)`")
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self.points, self.radii, self.offsets, dict(self.attributes), self.per_point)
 
@@ -108,8 +132,7 @@ def _restored(
 ) -> Strands:
     """Strands that were pickled or copied, which own their arrays."""
     strands = Strands.__new__(Strands)
-    strands.points, strands.radii, strands.offsets = points, radii, offsets
-    strands.attributes, strands.per_point = attributes, per_point
+    strands._set(points, radii, offsets, attributes, per_point)
     for array in (points, radii, offsets, *attributes.values()):
         array.flags.writeable = False
     return strands
