@@ -150,6 +150,6 @@ def _part(crop: Any) -> tuple[int, int, int, int] | None:
         left, top, width, height = (whole("crop", number, 0, sys.maxsize) for number in crop)
         whole("crop", min(width, height), LEAST_SIDE)
     except (TypeError, ValueError):
-        allowed = "four whole numbers (pixels): left and top from 0, width and height from 32"
+        allowed = f"four whole numbers (pixels): left and top from 0, width and height from {LEAST_SIDE}"
         raise ArgumentError(f"crop is {shown(crop)}; it must be {allowed}") from None
     return left, top, width, height

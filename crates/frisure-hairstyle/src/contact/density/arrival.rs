@@ -1,7 +1,5 @@
 //! What one guide that moves alone changes of the density of all, without moving it yet.
 
-use std::ops::Range;
-
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
@@ -16,11 +14,9 @@ pub(crate) struct Departure {
     changes: Vec<f64>,
 }
 
-/// The points of the guides that may be near one, in the order of guides.
+/// Where the points of the guides that may be near one are in a list of them, in the order of guides.
 struct NearPoints {
-    /// Those of each near guide, as a range of all points.
-    ranges: Vec<Range<usize>>,
-    /// For each guide that is near, which of these its first point is.
+    /// Where the first point of each guide is, of those that are near.
     first: Vec<u32>,
     count: usize,
 }
@@ -64,7 +60,7 @@ impl Density {
         };
         let dense = (self.starts[from.guide]..).zip(positions).map(at).collect();
         let mut growth = 0.0;
-        for (l, &change) in from.near.iter().zip(&changes) {
+        for (l, &change) in self.near_points(from.guide).zip(&changes) {
             if change != 0.0 {
                 growth += self.energy_at(l, self.dense[l] + change) - self.energy(l);
             }
@@ -72,40 +68,42 @@ impl Density {
         Arrival { changes, dense, growth }
     }
 
-    /// Moves the guide to where it arrives.
+    /// Moves a guide to the places (m) where it arrives.
     ///
     /// What is added to a density and taken away again leaves a rounding error there until [`Self::measure`].
-    pub(crate) fn arrive(&mut self, from: &Departure, positions: &[DVec3], arrival: &Arrival) {
-        for (l, &change) in from.near.iter().zip(&arrival.changes) {
+    pub(crate) fn arrive(&mut self, guide: usize, positions: &[DVec3], arrival: &Arrival) {
+        let near: Vec<usize> = self.near_points(guide).collect();
+        for (l, &change) in near.into_iter().zip(&arrival.changes) {
             if change != 0.0 {
                 self.set_dense(l, self.dense[l] + change);
             }
         }
-        for ((k, &position), &dense) in
-            (self.starts[from.guide]..).zip(positions).zip(&arrival.dense)
-        {
+        for ((k, &position), &dense) in (self.starts[guide]..).zip(positions).zip(&arrival.dense) {
             self.place_point(k, position);
             self.set_dense(k, dense);
         }
     }
 
-    /// The energy of the guide's own points where it arrives, as a field.
-    pub(crate) fn around_at<'a>(&'a self, from: &Departure, arrival: &'a Arrival) -> Arrived<'a> {
-        Arrived { density: self, guide: from.guide, dense: &arrival.dense }
+    /// The energy of a guide's own points where it arrives, as a field.
+    pub(crate) fn around_at<'a>(&'a self, guide: usize, arrival: &'a Arrival) -> Arrived<'a> {
+        Arrived { density: self, guide, dense: &arrival.dense }
+    }
+
+    /// The points of the guides that may be near one.
+    fn near_points(&self, guide: usize) -> impl Iterator<Item = usize> {
+        self.near_guides(guide).flat_map(|near| self.of_guide(near))
     }
 }
 
 impl NearPoints {
     fn of(density: &Density, guide: usize) -> Self {
         let mut first = vec![0; density.starts.len() - 1];
-        let (mut ranges, mut count) = (Vec::new(), 0);
-        for other in density.near_guides(guide) {
-            let points = density.of_guide(other);
-            first[other] = count as u32;
-            count += points.len();
-            ranges.push(points);
+        let mut count = 0;
+        for near in density.near_guides(guide) {
+            first[near] = count as u32;
+            count += density.of_guide(near).len();
         }
-        Self { ranges, first, count }
+        Self { first, count }
     }
 
     /// Which of them a point is.
@@ -113,10 +111,6 @@ impl NearPoints {
     fn place(&self, density: &Density, l: usize) -> usize {
         let guide = density.points.guide[l] as usize;
         self.first[guide] as usize + l - density.starts[guide]
-    }
-
-    fn iter(&self) -> impl Iterator<Item = usize> {
-        self.ranges.iter().cloned().flatten()
     }
 }
 

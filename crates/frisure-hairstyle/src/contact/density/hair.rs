@@ -244,7 +244,11 @@ impl Density {
 
     /// How much denser than at the onset hair is at a point; 0 where it is not.
     pub(super) fn excess(&self, k: usize) -> f64 {
-        (self.dense[k] - self.points.onset[k]).max(0.0)
+        self.excess_at(k, self.dense[k])
+    }
+
+    fn excess_at(&self, k: usize, dense: f64) -> f64 {
+        (dense - self.points.onset[k]).max(0.0)
     }
 }
 
@@ -269,8 +273,7 @@ impl Density {
 
     /// The same at another density.
     pub(super) fn energy_at(&self, k: usize, dense: f64) -> f64 {
-        let excess = (dense - self.points.onset[k]).max(0.0);
-        self.points.modulus[k] * self.points.sites[k].volume * excess.powi(3)
+        self.points.modulus[k] * self.points.sites[k].volume * self.excess_at(k, dense).powi(3)
     }
 
     /// First and second derivative of a point's energy by its density (J).
@@ -459,13 +462,11 @@ mod tests {
         let departure = density.departure(3);
         let arrival = density.arrival(&departure, &moved);
         let own: f64 = (0..12)
-            .map(|k| {
-                density.around_at(&departure, &arrival).energy(2e-3 * f64::from(k + 1), moved[0])
-            })
+            .map(|k| density.around_at(3, &arrival).energy(2e-3 * f64::from(k + 1), moved[0]))
             .zip(&density.points.length[36..48])
             .map(|(energy, length)| energy * length)
             .sum();
-        density.arrive(&departure, &moved, &arrival);
+        density.arrive(3, &moved, &arrival);
         let growth = arrival.growth;
         let (dense, pressure) = (density.dense.clone(), density.pressure.clone());
         density.measure();

@@ -3,7 +3,7 @@
 //! A sum is the same to the bit whatever the instruction set: no operation is fused with another.
 
 use fearless_simd::{
-    Level, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, dispatch, f64x4, mask64x4,
+    Level, Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f64x4, mask64x4,
 };
 
 use super::kernel::WENDLAND;
@@ -64,7 +64,8 @@ impl SiteLanes {
             #[inline(always)]
             |c| f64x4::splat(simd, c),
         );
-        let mut sum = f64x4::splat(simd, 0.0);
+        let (none, one) = (f64x4::splat(simd, 0.0), f64x4::splat(simd, 1.0));
+        let mut sum = none;
         for run in runs {
             for half in 0..sieve::LANES / LANES {
                 let close = u64::from(run.close) >> (half * LANES) & 0b1111;
@@ -79,13 +80,13 @@ impl SiteLanes {
                 let half_reach = f64x4::from_slice(simd, &self.half_reach[lanes.clone()]);
                 let volume = f64x4::from_slice(simd, &self.volume[lanes]);
                 // [`super::kernel::Kernel::value`]
-                let per_reach = f64x4::splat(simd, 1.0) / (half_reach + own.half_reach);
+                let per_reach = one / (half_reach + own.half_reach);
                 let t = (x * x + y * y + z * z).sqrt() * per_reach;
-                let left = (f64x4::splat(simd, 1.0) - t).max(f64x4::splat(simd, 0.0));
+                let left = (one - t).max(none);
                 let square = left * left;
                 let value = per_reach * per_reach * per_reach * square * square * (t * 4.0 + 1.0);
                 let counted = mask64x4::from_bitmask(simd, close);
-                sum += counted.select(volume * value, f64x4::simd_from(simd, 0.0));
+                sum += counted.select(volume * value, none);
             }
         }
         (sum[0] + sum[1] + sum[2] + sum[3]) * WENDLAND

@@ -12,7 +12,6 @@ use super::hessian::{
 };
 use super::line_search::{FARTHEST, FARTHEST_TURNED, TRIALS, accepts};
 use super::state::{GuideArrival, HeadState};
-use crate::contact::Departure;
 use crate::parallel;
 
 /// Relative gradient above which a guide is far from rest, and above which it is if a step by itself would be longer than
@@ -78,7 +77,7 @@ pub(super) fn eliminate(state: &mut HeadState<'_>, guides: &[usize], count: usiz
                     active[guide] = found.is_some();
                     moved[guide] |= active[guide];
                     if let Some(found) = found {
-                        state.arrive(guide, found.from.as_ref(), found.to);
+                        state.arrive(guide, found.to);
                         state.moved_alone(guide, found.length);
                     }
                 }
@@ -127,7 +126,6 @@ impl Step {
 
 /// A move of one guide that lowers the energy.
 struct Move {
-    from: Option<Departure>,
     to: GuideArrival,
     /// How far (m) it moves a node.
     length: f64,
@@ -143,7 +141,7 @@ impl Move {
         for _ in 0..TRIALS {
             let to = state.arrival(guide, from.as_ref(), &step.way, fraction);
             if accepts(energy, to.energy, -step.slope * fraction) {
-                return Some(Self { from, to, length: fraction * step.length });
+                return Some(Self { to, length: fraction * step.length });
             }
             fraction *= 0.5;
         }
@@ -198,7 +196,7 @@ mod tests {
             way[0] = DVec3::new(0.2, -0.1, 0.1);
             let from = state.departure(guide);
             let to = state.arrival(guide, from.as_ref(), &way, 1.0);
-            state.arrive(guide, from.as_ref(), to);
+            state.arrive(guide, to);
         }
         state.make_room(&[1.0; 40]);
         state.measure();

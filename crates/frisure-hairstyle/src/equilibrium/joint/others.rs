@@ -97,39 +97,29 @@ impl Others {
     pub(super) fn around_at<'a>(
         &'a self,
         guide: usize,
-        from: Option<&Departure>,
         arrival: Option<&'a Arrival>,
     ) -> Box<dyn Field + 'a> {
-        match (self, from, arrival) {
-            (Self::Density(density), Some(from), Some(arrival)) => {
-                Box::new(density.around_at(from, arrival))
-            }
+        match (self, arrival) {
+            (Self::Density(density), Some(arrival)) => Box::new(density.around_at(guide, arrival)),
             _ => self.around(guide),
         }
     }
 
     /// Moves the points (m) of one guide alone to where it arrives.
-    pub(super) fn arrive(
-        &mut self,
-        guide: usize,
-        from: Option<&Departure>,
-        points: Vec<DVec3>,
-        arrival: Option<&Arrival>,
-    ) {
-        match (self, from, arrival) {
-            (Self::Pairs(pairs), ..) => {
+    pub(super) fn arrive(&mut self, guide: usize, points: Vec<DVec3>, arrival: Option<&Arrival>) {
+        match (self, arrival) {
+            (Self::Pairs(pairs), _) => {
                 pairs.place(guide, points);
             }
-            (Self::Density(density), Some(from), Some(arrival)) => {
-                density.arrive(from, &points, arrival);
-            }
-            _ => {}
+            (Self::Density(density), Some(arrival)) => density.arrive(guide, &points, arrival),
+            (Self::Density(_) | Self::Apart, _) => {}
         }
     }
 
-    /// Guides in groups of which no two can come near each other, or near the same guide, taken in the given order.
+    /// Guides in groups of which no two change what the other feels, taken in the given order.
     pub(super) fn groups_apart(&self, order: &[usize]) -> Vec<Vec<usize>> {
         match self {
+            // The energy of a pair is that of its two guides.
             Self::Pairs(pairs) => pairs.groups(order),
             Self::Density(density) => density.groups_apart(order),
             Self::Apart => vec![order.to_vec()],

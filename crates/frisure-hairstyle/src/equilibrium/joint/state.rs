@@ -268,7 +268,7 @@ impl<'a> HeadState<'a> {
         let settled = wisp.after(step, fraction);
         let points = wisp.points_at(&settled);
         let arrival = self.others.arrival(from, &points);
-        let around = self.others.around_at(guide, from, arrival.as_ref());
+        let around = self.others.around_at(guide, arrival.as_ref());
         let own = wisp.share_at(&settled, &*around, self.anchors[guide].as_ref());
         drop(around);
         let energy = own + arrival.as_ref().map_or(0.0, |arrival| arrival.growth);
@@ -276,8 +276,8 @@ impl<'a> HeadState<'a> {
     }
 
     /// Moves one guide alone to where it arrives. [`Self::measure`] has to follow.
-    pub(super) fn arrive(&mut self, guide: usize, from: Option<&Departure>, to: GuideArrival) {
-        self.others.arrive(guide, from, to.points, to.arrival.as_ref());
+    pub(super) fn arrive(&mut self, guide: usize, to: GuideArrival) {
+        self.others.arrive(guide, to.points, to.arrival.as_ref());
         self.wisps[guide].take(to.settled);
     }
 
