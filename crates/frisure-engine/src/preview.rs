@@ -66,7 +66,7 @@ pub(crate) fn head_data(head: &Head, note: Option<String>) -> HeadData {
         positions: surface.positions().iter().flat_map(DVec3::to_array).collect(),
         triangles: surface.triangles().to_vec(),
         tints: features.map_or(Vec::new(), |features| {
-            features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment]).collect()
+            features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment, t.scalp]).collect()
         }),
         eyes: features.map_or(Vec::new(), |features| features.eyes.iter().map(eye).collect()),
         levels: levels()

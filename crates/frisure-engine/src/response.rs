@@ -153,7 +153,7 @@ pub struct HeadData {
     pub positions: Vec<f64>,
     /// Triangles, three vertices each.
     pub triangles: Vec<[u32; 3]>,
-    /// Red of lips, blood beneath the skin and garment at each vertex, three numbers from 0 to 1 each; empty for skin alone.
+    /// Red of lips, blood beneath the skin, garment and scalp at each vertex, four numbers from 0 to 1 each; may be empty.
     #[serde(with = "crate::bytes")]
     pub tints: Vec<f32>,
     /// Eyes: centre (m), radius (m) and unit direction of the gaze.

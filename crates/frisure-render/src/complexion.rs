@@ -34,9 +34,13 @@ const CORNEA_ROUGHNESS: f32 = 0.05;
 const LIPS: Vec3 = Vec3::new(0.83, 0.58, 0.60);
 const FLUSH: Vec3 = Vec3::new(0.98, 0.80, 0.80);
 
-/// Linear reflectance of the white of an eye, and of its corners. Chosen.
-const SCLERA: Vec3 = Vec3::new(0.54, 0.49, 0.45);
-const CORNER: Vec3 = Vec3::new(0.50, 0.33, 0.29);
+/// Reflectance of the scalp over that of the face: hairs beneath the skin show through, as they do on a shaven head. Chosen by eye.
+const SCALP: Vec3 = Vec3::new(0.76, 0.68, 0.65);
+
+/// Linear reflectance of the white of an eye, and of its corners. Chosen by eye: about two thirds of that of fair skin, as in portraits, where
+/// sockets, lids and lashes keep off more light than those of the built-in heads do.
+const SCLERA: Vec3 = Vec3::new(0.40, 0.365, 0.34);
+const CORNER: Vec3 = Vec3::new(0.38, 0.25, 0.22);
 
 /// Sine of the angle from the gaze to the edge of the iris and of the pupil: an iris of 11.8 mm on a ball of 24 mm
 /// (Rüfer et al. 2005, doi:10.1097/01.ico.0000148312.01805.53), and a pupil of 4 mm in a lit room.
@@ -112,7 +116,11 @@ pub fn material(
     let mix = |to: Vec3, part: f32| Vec3::ONE.lerp(to, part.clamp(-1.0, 1.0));
     let lips = tint.lips.clamp(0.0, 1.0);
     let spots = if look.texture > 0.0 { spots(p, look.texture * (1.0 - lips)) } else { Vec3::ONE };
-    let colour = look.colour * mix(FLUSH, tint.flush) * mix(LIPS, tint.lips.max(0.0)) * spots;
+    let colour = look.colour
+        * mix(FLUSH, tint.flush)
+        * mix(LIPS, tint.lips.max(0.0))
+        * mix(SCALP, tint.scalp.max(0.0))
+        * spots;
     // Spots lighter than the palest skin would give back more light than falls in.
     let colour = colour.min(Vec3::ONE);
     // Lips are moist.
@@ -321,10 +329,13 @@ mod tests {
         };
         assert!(at(0.05).colour.max_element() < 0.02);
         assert!(at(0.25).colour.z > 2.0 * at(0.25).colour.x);
-        assert!(at(0.6).colour.min_element() > 0.4);
+        assert!(at(0.6).colour.min_element() > 0.3);
         assert!(!at(0.6).scatters && at(0.6).normal.is_some());
         let skin = material(Some(&features), Tint::default(), (Vec3::X, None), &look);
         assert_eq!(skin.colour, look.colour);
+        let scalp = Tint { scalp: 1.0, ..Tint::default() };
+        let scalp = material(None, scalp, (Vec3::X, None), &look).colour / look.colour;
+        assert!(scalp.distance(SCALP) < 1e-6);
         let lips = Tint { lips: 1.0, ..Tint::default() };
         let lips = material(None, lips, (Vec3::X, None), &look).colour / look.colour;
         assert!(lips.x > 1.3 * lips.y);

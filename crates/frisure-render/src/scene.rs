@@ -33,7 +33,7 @@ pub struct Scene<'a> {
 pub(crate) const PIGMENT: &str = "frisure:pigment";
 
 /// Pigment of brows and lashes over that of hair: those of fair people are a shade or two darker than their hair. Chosen by eye.
-const FACIAL_PIGMENT: f32 = 2.2;
+const FACIAL_PIGMENT: f32 = 4.0;
 
 impl<'a> Scene<'a> {
     /// The scene in the default look, framed from the three-quarter front view of a portrait for a

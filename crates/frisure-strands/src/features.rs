@@ -24,6 +24,8 @@ pub struct Tint {
     pub flush: f32,
     /// Above one half, a garment covers the skin.
     pub garment: f32,
+    /// The scalp, which is darker than the face by the roots of hair in it.
+    pub scalp: f32,
 }
 
 /// The features of a head: data beside its mesh that renderers draw and that no hairstyle depends on.
@@ -50,15 +52,23 @@ impl Features {
 impl std::ops::Add for Tint {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        let (lips, flush) = (self.lips + other.lips, self.flush + other.flush);
-        Self { lips, flush, garment: self.garment + other.garment }
+        Self {
+            lips: self.lips + other.lips,
+            flush: self.flush + other.flush,
+            garment: self.garment + other.garment,
+            scalp: self.scalp + other.scalp,
+        }
     }
 }
 
 impl std::ops::Mul<f32> for Tint {
     type Output = Self;
     fn mul(self, factor: f32) -> Self {
-        let (lips, flush) = (self.lips * factor, self.flush * factor);
-        Self { lips, flush, garment: self.garment * factor }
+        Self {
+            lips: self.lips * factor,
+            flush: self.flush * factor,
+            garment: self.garment * factor,
+            scalp: self.scalp * factor,
+        }
     }
 }

@@ -114,12 +114,12 @@ impl Skin {
     }
 }
 
-/// Tints of the vertices, which are none for skin without features. Vertices of accessories have a fourth number of at least one: their
-/// colour, and one plus the strength of their gloss.
+/// Tints of the vertices, which are none for skin without features; the fourth number is half of the scalp's. Vertices of accessories have
+/// a fourth number of at least one: their colour, and one plus the strength of their gloss.
 fn tints(surface: &Surface) -> Vec<[f32; 4]> {
     let tints = surface.features().map_or(&[][..], |features| &features.tints);
     let of = |index: usize| tints.get(index).copied().unwrap_or_default();
-    let packed = |Tint { lips, flush, garment }| [lips, flush, garment, 0.0];
+    let packed = |Tint { lips, flush, garment, scalp }| [lips, flush, garment, 0.5 * scalp];
     let mut tints: Vec<_> = (0..surface.positions().len()).map(|index| packed(of(index))).collect();
     for (face, corners) in surface.triangles().iter().enumerate() {
         if let Some(material) = surface.accessory(face) {

@@ -29,13 +29,13 @@ pub(super) struct FacialLines {
 const POINTS: usize = 6;
 
 /// Hairs of a brow, lashes of an upper and of a lower lid.
-const COUNTS: [usize; 3] = [420, 110, 60];
+const COUNTS: [usize; 3] = [480, 150, 70];
 
 /// Half the height of a brow at its inner and its outer end (m).
-const BROW: [f64; 2] = [5.2e-3, 2.2e-3];
+const BROW: [f64; 2] = [4.8e-3, 2.2e-3];
 
 /// Radius at the root of hairs of the brow and of lashes (m).
-const RADII: [f32; 2] = [2.6e-5, 3.2e-5];
+const RADII: [f32; 2] = [3.4e-5, 4.5e-5];
 
 /// The hairs of both halves of a face; the skin's distance keeps brows on it.
 pub(super) fn grow(lines: &FacialLines, skin: &SignedDistance) -> Strands {
@@ -72,7 +72,8 @@ pub(super) fn grow(lines: &FacialLines, skin: &SignedDistance) -> Strands {
 fn brow_hair(lines: &FacialLines, skin: &SignedDistance, random: &mut Stream) -> [DVec3; POINTS] {
     // Denser in the middle, thinner at both ends: the mean of two uniform numbers, stretched.
     let t = (0.5 + 0.62 * (random.unit() + random.unit() - 1.0)).clamp(0.0, 1.0);
-    let across = random.unit() + random.unit() - 1.0;
+    // Dense to both edges: half uniform, half the mean of two.
+    let across = random.unit() + 0.5 * (random.unit() + random.unit()) - 1.0;
     let [inner, outer] = BROW;
     let half = (inner + (outer - inner) * t) * (1.0 - 0.5 * (1.0 - 8.0 * t).max(0.0));
     let (centre, along) = on_line(&lines.brow, t);

@@ -113,7 +113,7 @@ fn tint(p: DVec3, lips: f64, ear: f64) -> Tint {
     let nose = ball(dvec3(0.0, 11.3, -4.3), 1.9);
     let ear = if ear.abs() < 0.1 { 0.7 } else { 0.0 };
     let flush = cheek.max(nose).max(ear).min(1.0);
-    Tint { lips: lips as f32, flush: flush as f32, garment: 0.0 }
+    Tint { lips: lips as f32, flush: flush as f32, ..Tint::default() }
 }
 
 /// Height of the foot (cm).

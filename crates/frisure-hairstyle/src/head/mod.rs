@@ -31,7 +31,7 @@ mod voxel_grid;
 mod voxels;
 
 use frisure_digest::Digest;
-use frisure_strands::Surface;
+use frisure_strands::{Surface, Tint};
 use glam::DVec3;
 use thiserror::Error;
 
@@ -240,6 +240,7 @@ impl Head {
         signed_distance: SignedDistance,
         stance: Stance,
     ) -> Self {
+        let surface = with_scalp(surface, &scalp);
         let spheres = Derived::new();
         let fingerprint = fingerprint(&surface, &scalp);
         let frame = surface.bounds();
@@ -318,6 +319,16 @@ impl Head {
 }
 
 /// The digest of a head.
+/// The surface, whose tints say how much hair grows at each vertex (0 to 1); a mesh that is skin alone has no other tints.
+fn with_scalp(surface: Surface, scalp: &[f64]) -> Surface {
+    let mut features = surface.features().cloned().unwrap_or_default();
+    features.tints.resize(scalp.len(), Tint::default());
+    for (tint, weight) in features.tints.iter_mut().zip(scalp) {
+        tint.scalp = *weight as f32;
+    }
+    surface.with_features(features).expect("a tint for each vertex")
+}
+
 fn fingerprint(surface: &Surface, scalp: &[f64]) -> u64 {
     let positions = surface.positions().iter().flat_map(DVec3::to_array);
     Digest::new("head")

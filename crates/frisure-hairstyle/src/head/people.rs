@@ -128,7 +128,7 @@ fn cage(places: &[[u16; 3]], low: DVec3, high: DVec3) -> Quads<Corner> {
     let tint = |vertex: usize| {
         let [lips, flush, garment] =
             [0, 1, 2].map(|column| f32::from(topology.0[column * vertices + vertex]) / 255.0);
-        Tint { lips, flush, garment }
+        Tint { lips, flush, garment, scalp: 0.0 }
     };
     let corner = |(vertex, place): (usize, &[u16; 3])| {
         let part = DVec3::from_array(place.map(|x| f64::from(x) / 65535.0));
@@ -239,7 +239,7 @@ mod tests {
             assert!(distance(0.0, 0.02, -0.3) < -0.04 && distance(0.0, 0.0, 0.0) < -0.05, "{name}");
             assert!(distance(0.0, -0.25, 0.0) > 0.05, "{name}");
             let features = surface.features().unwrap();
-            assert_eq!(features.hairs.len(), 2 * 590, "{name}");
+            assert_eq!(features.hairs.len(), 2 * 700, "{name}");
             for strand in features.hairs.iter() {
                 let [root, tip] = [strand.points[0], strand.points[strand.points.len() - 1]]
                     .map(|p| head.signed_distance().value(p.as_dvec3()));

@@ -16,7 +16,7 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
     if let Some(surface) = surface {
         add_mesh(&mut digest, surface);
         if let Some(features) = surface.features() {
-            let tints = features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment]);
+            let tints = features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment, t.scalp]);
             digest.packed("tints", tints.map(f32::to_le_bytes));
             let eye = |e: &Eye| [e.centre.to_array(), [e.radius; 3], e.gaze.to_array()];
             let eyes = features.eyes.iter().flat_map(eye).flatten();

@@ -23,7 +23,7 @@ impl HeadMesh {
         let surface = Surface::new(positions.collect(), head.triangles).ok();
         let levels = head.levels;
         let tints: Vec<Tint> = (head.tints.as_chunks().0.iter())
-            .map(|&[lips, flush, garment]| Tint { lips, flush, garment })
+            .map(|&[lips, flush, garment, scalp]| Tint { lips, flush, garment, scalp })
             .collect();
         let eyes: Vec<Eye> = (head.eyes.iter())
             .map(|&[x, y, z, radius, u, v, w]| Eye {

@@ -22,8 +22,8 @@ struct Skin {
     @location(2) ambient: vec3<f32>,
     // Lamps, whether the head's shadows are soft, and planes.
     @location(3) @interpolate(flat) kinds: vec3<i32>,
-    // Red of lips, blood beneath the skin, and whether a garment covers it (above one half). Of an accessory its colour, and one
-    // plus the strength of its gloss.
+    // Red of lips, blood beneath the skin, whether a garment covers it (above one half), and half of how much hair grows there. Of an
+    // accessory its colour, and one plus the strength of its gloss.
     @location(4) tint: vec4<f32>,
 }
 
@@ -91,7 +91,8 @@ struct Cover {
 // Materials as `complexion.rs` has them.
 const LIPS: vec3<f32> = vec3<f32>(0.83, 0.58, 0.60);
 const FLUSH: vec3<f32> = vec3<f32>(0.98, 0.80, 0.80);
-const SCLERA: vec3<f32> = vec3<f32>(0.60, 0.56, 0.52);
+const SCALP: vec3<f32> = vec3<f32>(0.76, 0.68, 0.65);
+const SCLERA: vec3<f32> = vec3<f32>(0.42, 0.385, 0.36);
 const CORNER: vec3<f32> = vec3<f32>(0.50, 0.33, 0.29);
 const IRIS: f32 = 0.44;
 const PUPIL: f32 = 0.15;
@@ -115,11 +116,12 @@ fn eyeball(eye: Eye, out: vec3<f32>) -> Cover {
 }
 
 fn cover(place: vec3<f32>, normal: vec3<f32>, tint: vec4<f32>) -> Cover {
-    if tint.w > 0.5 {
+    if tint.w > 0.75 {
         return Cover(tint.xyz, 0.0, vec2<f32>(tint.w - 1.0, picture.skin_shape.w), normal);
     }
     let part = clamp(tint.xyz, vec3<f32>(0.0), vec3<f32>(1.0));
-    let reds = mix(vec3<f32>(1.0), FLUSH, part.y) * mix(vec3<f32>(1.0), LIPS, part.x);
+    let roots = mix(vec3<f32>(1.0), SCALP, clamp(2.0 * tint.w, 0.0, 1.0));
+    let reds = mix(vec3<f32>(1.0), FLUSH, part.y) * mix(vec3<f32>(1.0), LIPS, part.x) * roots;
     let gloss = vec2<f32>(picture.skin.a * (1.0 + 0.4 * part.x), picture.skin_shape.w);
     var found = Cover(picture.skin.rgb * reds, 1.0, gloss, normal);
     if tint.z > 0.5 {
