@@ -16,7 +16,7 @@ fn exported(format: &str) -> Vec<u8> {
     static FILES: LazyLock<Vec<(String, Vec<u8>)>> = LazyLock::new(|| {
         let mut world = World::new();
         let text =
-            "[hair]\ntype = \"wavy\"\n[wisps]\ncount = 40\nhairs = 60\npoints = 12\n".to_owned();
+            "[hair]\ntype = \"wavy\"\n[wisps]\ncount = 20\nhairs = 30\npoints = 12\n".to_owned();
         world.run(Command::Open { path: None, name: "a".into(), text });
         let file = |format: &&str| {
             let name = format!("a.{format}");

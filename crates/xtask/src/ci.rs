@@ -35,12 +35,18 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
-        // Tests leave a third of two cores idle: what does not need them goes on beside them.
+        // Tests leave a third of two cores idle: what does not need them goes on beside them, and what is mostly one thing after another beside
+        // what uses all cores.
+        let gate = &gate;
         thread::scope(|scope| {
-            let other = scope.spawn(|| other_programs(&gate));
-            let first = tests(&gate);
-            let other = other.join().map_err(|_| anyhow!("the steps beside the tests panic"))?;
-            first.and(other).map_err(|error| gate.failure().unwrap_or(error))
+            let beside: [fn(&Gate) -> Result<()>; 2] = [other_builds, other_programs];
+            let beside = beside.map(|steps| scope.spawn(move || steps(gate)));
+            let first = tests(gate);
+            let panics = |_| Err(anyhow!("the steps beside the tests panic"));
+            let others = beside.into_iter().map(|steps| steps.join().unwrap_or_else(panics));
+            others
+                .fold(first, |all, steps| all.and(steps))
+                .map_err(|error| gate.failure().unwrap_or(error))
         })?;
     }
     gate.report();
@@ -56,22 +62,13 @@ fn tests(gate: &Gate) -> Result<()> {
     gate.step("examples", examples)
 }
 
-/// The steps that need the release build, lints, those of programs in Python, and documents. They take about as long as the tests.
-/// What a program prints comes when its step is done.
-fn other_programs(gate: &Gate) -> Result<()> {
+/// The steps that need the release build, lints, and documents. What a program prints comes when its step is done.
+fn other_builds(gate: &Gate) -> Result<()> {
     gate.step("dependencies", dependencies)?;
     gate.step("the README's main command", main_command)?;
     gate.step("every scene", every_scene)?;
     // Not before the tests are compiled: both are built in the same folder, and one would wait for the other.
     gate.step("lints", || shell_beside(&format!("cargo {CLIPPY}")))?;
-    gate.step("programs that open grooms", || {
-        // `.ci/run` has built this one, with every feature.
-        shell_beside("FRISURE=target/debug/frisure validation/clients/run")
-    })?;
-    gate.step("scripts for clusters", || shell_beside("validation/cluster/run"))?;
-    gate.step("the Python package", || shell_beside("crates/frisure-python/tests/run"))?;
-    // With the wheel of the step before.
-    gate.step("the extension for Blender", || shell_beside("blender/tests/run"))?;
     gate.step("documentation", || {
         shell_beside(
             "RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked",
@@ -84,6 +81,18 @@ fn other_programs(gate: &Gate) -> Result<()> {
         // About two minutes; the tests have made a shorter run of it.
         shell_beside("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
     })
+}
+
+/// The steps of programs in Python. Most of their work is one thing after another.
+fn other_programs(gate: &Gate) -> Result<()> {
+    gate.step("programs that open grooms", || {
+        // `.ci/run` has built this one, with every feature.
+        shell_beside("FRISURE=target/debug/frisure validation/clients/run")
+    })?;
+    gate.step("scripts for clusters", || shell_beside("validation/cluster/run"))?;
+    gate.step("the Python package", || shell_beside("crates/frisure-python/tests/run"))?;
+    // With the wheel of the step before.
+    gate.step("the extension for Blender", || shell_beside("blender/tests/run"))
 }
 
 /// A program that gives way to the tests: they are the longer way and seldom use two cores, and what is left is enough for it.
