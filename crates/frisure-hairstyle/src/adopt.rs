@@ -150,7 +150,7 @@ struct Held {
     /// The hair beneath it.
     bed: Bed,
     /// Force per length, in weights of the hair, that holds it out of the face.
-    hold: f64,
+    hold: DVec3,
 }
 
 /// The strand of a groom as a rod that rests in its shape, and what it rests on. Where hair that is combed out of the face
@@ -164,20 +164,22 @@ fn held(
     let fitted = FittedCurve::new(line, &fibre)?;
     if is_inside(spec, head, line) {
         let bed = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2], 0.0);
-        return Ok(Held { fit: fitted.solve(&[], &holding(spec))?, bed, hold: 0.0 });
+        return Ok(Held { fit: fitted.solve(&[], &holding(spec))?, bed, hold: DVec3::ZERO });
     }
     let skin: Vec<(f64, DVec3)> =
         fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
     let supported = |like: &Rod, hold| supported(spec, head, (&fitted, &skin), like, hold);
-    let free = supported(fitted.rod(), 0.0)?;
+    let free = supported(fitted.rod(), DVec3::ZERO)?;
     let root = fitted.rod().root();
     let normal = skin[0].1.normalize_or_zero();
     let along = root.frame().z_axis;
     let along = along - normal * along.dot(normal);
-    let hold = spec.implantation.hold * out_of_face(head.landmarks(), root.position(), along);
+    let marks = head.landmarks();
+    let hold = spec.implantation.hold * out_of_face(marks, root.position(), along);
     if hold <= 0.0 {
         return Ok(free);
     }
+    let hold = marks.face * -hold;
     // How far the hold reaches depends on the curl that is found.
     let guess = supported(fitted.rod(), hold)?;
     let held = supported(&guess.fit.rod, hold)?;
@@ -186,16 +188,16 @@ fn held(
     Ok(if effort(&held) < effort(&free) { held } else { free })
 }
 
-/// The same on the bed that it needs, held out of the face with `hold` times its weight per length as far as a rod with the curl
+/// The same on the bed that it needs, held with `hold` times its weight per length as far as a rod with the curl
 /// of `like` is; `skin` has the distance from it (m) and its gradient at each node.
 fn supported(
     spec: &HairstyleSpec,
     head: &Head,
     (fitted, skin): (&FittedCurve, &[(f64, DVec3)]),
     like: &Rod,
-    hold: f64,
+    hold: DVec3,
 ) -> Result<Held, InvalidQuantity> {
-    let combed = combed_hold(head, like, hold);
+    let combed = combed_hold(like, hold);
     let bears = spec.contact.body != Body::None;
     let beneath = |(distance, out): &(f64, DVec3)| {
         (bears && *distance < DEEPEST_BED).then(|| out.normalize_or_zero())

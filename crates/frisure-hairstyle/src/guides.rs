@@ -35,8 +35,8 @@ pub struct Guide {
     /// How many times as hard as usual it presses on the skin for being held in a shape, which skin
     /// has to bear.
     pub(crate) firmness: f64,
-    /// Force per length, in weights of the hair, with which the hair beneath holds it out of the face where it was combed.
-    pub(crate) hold: f64,
+    /// Force per length, in weights of the hair, with which the hair beneath holds it where it was combed.
+    pub(crate) hold: DVec3,
     /// Friction of its hair, which is that of its wetness.
     pub friction: FrictionCoefficients,
     /// Mean natural strain (rad/m), about which it varies along the hair.
@@ -64,7 +64,7 @@ pub(crate) fn plan(
     parallel::try_map(roots.len(), |index| {
         let root = roots[index];
         let planned = fibre(spec, head, layout, &root, index)?;
-        let hold = spec.implantation.hold * layout.held(&root);
+        let hold = layout.held(&root) * spec.implantation.hold;
         Ok(Guide { hold, ..covered(spec, head, area, &ways, root, planned) })
     })
 }
@@ -82,7 +82,7 @@ pub(crate) fn covered(
     let thickness = thickness(spec, area, &rod);
     let way = ways.over_hair(&root, rod.length());
     let layer = Layer::new(way, cover(spec, &thickness, &rod));
-    let (bed, pull, firmness, hold) = (None, None, 1.0, 0.0);
+    let (bed, pull, firmness, hold) = (None, None, 1.0, DVec3::ZERO);
     let (skin, hair) = (spec.contact.skin_friction, spec.contact.friction);
     let friction = FrictionCoefficients {
         skin,

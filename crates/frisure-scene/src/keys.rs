@@ -264,8 +264,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "implantation.jitter" => number::<Angle>()
             .slider(Panel::Implantation, "Disorder", DEGREES, (0.0, 57.0), 0,
                 "Standard deviation of the direction in which neighbouring wisps leave the scalp.");
-        /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face;
-        /// {}. Default 1.2.
+        /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face and on its
+        /// side of a parting; {}. Default 1.2.
         "implantation.hold" => number::<Ratio>()
             .slider(Panel::Implantation, "Hold", TIMES, (0.0, 3.0), 2,
                 "How well combed hair stays out of the face, in weights of the hair.");

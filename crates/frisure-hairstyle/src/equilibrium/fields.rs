@@ -120,10 +120,10 @@ fn skin_for_curl(guide: &Guide) -> f64 {
 const HELD: f64 = 0.12;
 const HELD_SHARE: f64 = 0.6;
 
-/// What holds a rod that was combed out of the face, with `hold` times its weight per length.
-pub(crate) fn combed_hold(head: &Head, rod: &Rod, hold: f64) -> CombedHold {
+/// What holds a rod that was combed, with `hold` times its weight per length.
+pub(crate) fn combed_hold(rod: &Rod, hold: DVec3) -> CombedHold {
     CombedHold {
-        force: head.landmarks().face * (-hold * rod.weight()),
+        force: hold * rod.weight(),
         reach: (HELD * winding(rod)).min(HELD_SHARE * rod.length()),
     }
 }
@@ -154,7 +154,7 @@ pub(super) fn body<'a>(
         layer,
         bed: guide.bed.as_deref(),
         friction: guide.friction,
-        hold: combed_hold(head, &guide.rod, guide.hold),
+        hold: combed_hold(&guide.rod, guide.hold),
     }
 }
 

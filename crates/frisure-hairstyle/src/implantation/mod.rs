@@ -119,10 +119,19 @@ impl Layout {
         out.lerp(down, combed * (1.0 - lift::curly(strain)))
     }
 
-    /// How much of the hair at a root, 0 to 1, was combed out of the face and would fall back into it.
-    pub(crate) fn held(&self, root: &Root) -> f64 {
+    /// Where to hair was combed that would fall back: out of the face, and over the head to the other side of a parting that is not on
+    /// top of it. A sum of horizontal vectors, no longer than 1 each: how much of the hair at a root it is.
+    pub(crate) fn held(&self, root: &Root) -> DVec3 {
         let (along, combed) = self.along(root);
-        combed * out_of_face(&self.marks, root.position, along)
+        let back = -self.marks.face * (combed * out_of_face(&self.marks, root.position, along));
+        let Some(Away { along: away, distance, strength }) =
+            self.partings.away(root.position, root.normal)
+        else {
+            return back;
+        };
+        let near = (-(distance / BESIDE).powi(2)).exp();
+        let over = combed * strength * near * smooth_step(0.0, UPHILL, away.z);
+        back + DVec3::new(away.x, away.y, 0.0).normalize_or_zero() * over
     }
 
     /// Factor on the natural curl at a root.
@@ -183,6 +192,13 @@ impl Layout {
         !self.partings.is_empty() || self.regions.iter().any(|s| s.length.is_some())
     }
 }
+
+/// Distance (m) from a parting within which hair that is combed uphill would fall back over it: it lies on the top of the head from there
+/// on. Chosen by eye.
+const BESIDE: f64 = 0.03;
+
+/// Slope (sine) of the way uphill from a parting at which all of that hair would. Chosen by eye.
+const UPHILL: f64 = 0.15;
 
 /// How much of the hair at a place of the skin (m) that is combed `along` it (no longer than 1), 0 to 1, would fall into the face.
 pub(crate) fn out_of_face(marks: &Landmarks, place: DVec3, along: DVec3) -> f64 {

@@ -89,7 +89,8 @@ digestible! {
         pub density: f64,
         /// The edge of the hair, on a head whose scalp does not come with its mesh.
         pub hairline: Hairline,
-        /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face.
+        /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face and on
+        /// its side of a parting.
         pub hold: f64,
         /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin, 0 to 1: twice as many at the edge, none at
         /// 1.5 cm. From 0.5 on all at the edge are, so that 1 gives three quarters.

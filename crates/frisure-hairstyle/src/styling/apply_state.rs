@@ -73,7 +73,7 @@ pub(super) fn guide(
     let in_wisp = state.product.map_or(0.0, |product| product.cohesion_in_wisp(diameter));
     guide.friction.lock_cohesion = in_wisp;
     // What a hand or a clip holds needs no friction, which would pull it elsewhere.
-    guide.hold = if state.grip.is_some() { 0.0 } else { planned.hold };
+    guide.hold = if state.grip.is_some() { DVec3::ZERO } else { planned.hold };
     // What is drawn tight over the head presses on skin as what is held in a shape does.
     guide.firmness = if state.grip.is_some_and(Grip::presses) { MOULD } else { 1.0 };
     Ok(guide)
