@@ -92,6 +92,33 @@ fn a_parting_is_a_line() {
     assert!(bare <= 3e-3, "{:.2} mm", 1e3 * bare);
 }
 
+/// Hair from a parting at the side lies over the top of the head, uphill, and does not fall back over the line.
+#[test]
+fn hair_stays_on_its_side_of_a_parting() {
+    const OFFSET: f64 = 0.035;
+    for (name, seed) in [("caucasian-straight", 3), ("caucasian-wavy", 1), ("caucasian-wavy", 4)] {
+        let mut spec = spec(name, 300, 600);
+        spec.seed = seed;
+        spec.implantation.flow = Flow::Parted { offset: OFFSET };
+        let marks = head().landmarks();
+        let hairstyle = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
+        let (mut above, mut back) = (0, 0);
+        for (guide, rest) in hairstyle.guides().iter().zip(hairstyle.equilibria()) {
+            let root = guide.root.position;
+            // In front, where the line is straight.
+            let front = root.y < marks.cranium_centre.y - 0.03 && root.z > marks.cranium_centre.z;
+            let beside = root.x < OFFSET - 5e-3 && root.x > OFFSET - 0.03;
+            if !(front && beside) {
+                continue;
+            }
+            let after = rest.at(&rest.chain(), 0.06 / rest.rod.length()).0;
+            above += 1;
+            back += usize::from(after.x > root.x);
+        }
+        assert!(above >= 5 && back == 0, "{name}, seed {seed}: {back} of {above}");
+    }
+}
+
 #[test]
 fn some_hairs_are_still_growing() {
     let mut spec = spec("straight", 30, 4000);

@@ -195,10 +195,10 @@ impl Layout {
 
 /// Distance (m) from a parting within which hair that is combed uphill would fall back over it: it lies on the top of the head from there
 /// on. Chosen by eye.
-const BESIDE: f64 = 0.03;
+const BESIDE: f64 = 0.04;
 
 /// Slope (sine) of the way uphill from a parting at which all of that hair would. Chosen by eye.
-const UPHILL: f64 = 0.15;
+const UPHILL: f64 = 0.06;
 
 /// How much of the hair at a place of the skin (m) that is combed `along` it (no longer than 1), 0 to 1, would fall into the face.
 pub(crate) fn out_of_face(marks: &Landmarks, place: DVec3, along: DVec3) -> f64 {

@@ -333,6 +333,8 @@ fn curls_above_the_forehead_lean_where_they_are_combed() {
 fn drawn_hair_is_gathered_at_a_parting_on_its_own_side() {
     let layout = layout(Flow::Parted { offset: 0.02 }, |_| {});
     let (mut near, mut nearer) = (0, 0);
+    let (mut beside, mut left) = (0, 0);
+    let strip = 3e-3..15e-3;
     for from in Scalp::new(head()).stratified(20_000, 1, Purpose::HairRoots) {
         let to = layout.gathered(head(), from);
         assert!(to == from || head().signed_distance().value(to.position).abs() < 2e-4);
@@ -342,7 +344,11 @@ fn drawn_hair_is_gathered_at_a_parting_on_its_own_side() {
         assert!(after < before + 1e-4 && (before < 30e-3 || after > before - 1e-6));
         near += usize::from(before < 1.5e-3);
         nearer += usize::from(after < 1.5e-3);
+        beside += usize::from(strip.contains(&before));
+        left += usize::from(strip.contains(&after));
     }
+    // What is gathered comes from a broad strip.
+    assert!(10 * left > 7 * beside, "{left} of {beside}");
     assert!(nearer > 2 * near, "{nearer}, {near}");
 }
 
