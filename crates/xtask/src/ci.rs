@@ -44,9 +44,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             let first = tests(gate);
             let panics = |_| Err(anyhow!("the steps beside the tests panic"));
             let others = beside.into_iter().map(|steps| steps.join().unwrap_or_else(panics));
-            others
-                .fold(first, |all, steps| all.and(steps))
-                .map_err(|error| gate.failure().unwrap_or(error))
+            others.fold(first, Result::and).map_err(|error| gate.failure().unwrap_or(error))
         })?;
     }
     gate.report();
