@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use frisure_progress::{Cancelled, Progress};
 use frisure_rod::{InvalidQuantity, Rod, RodSpec, Root as Clamp};
 use frisure_strands::Strands;
-use glam::{DMat3, Vec3};
+use glam::{DMat3, DQuat, Vec3};
 
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, settle};
 use crate::guides::{Guide, Planned, covered};
@@ -58,11 +58,13 @@ pub fn transfer(
     spec.wisps.check_size(placement.area())?;
     let layout = Layout::new(&spec, to)?;
     let ways = Ways::new(&spec, to, &layout);
+    // What held hair where it was combed goes with the face.
+    let faced = DQuat::from_rotation_arc(from.landmarks().face, to.landmarks().face);
     let guide = |(guide, (root, turn)): (&Guide, &(Root, DMat3))| {
         let rod = clamped(&guide.rod, *root, *turn)?;
         let planned = Planned { rod, curl: guide.curl, share: guide.share };
         let covered = covered(&spec, to, placement.area(), &ways, *root, planned);
-        Ok(Guide { bed: guide.bed.clone(), hold: guide.hold, ..covered })
+        Ok(Guide { bed: guide.bed.clone(), hold: faced * guide.hold, ..covered })
     };
     let guides = hairstyle.guides.iter().zip(&roots).map(guide);
     let guides = guides.collect::<Result<Vec<_>, InvalidQuantity>>()?;

@@ -318,7 +318,6 @@ impl Head {
     }
 }
 
-/// The digest of a head.
 /// The surface, whose tints say how much hair grows at each vertex (0 to 1); a mesh that is skin alone has no other tints.
 fn with_scalp(surface: Surface, scalp: &[f64]) -> Surface {
     let mut features = surface.features().cloned().unwrap_or_default();
@@ -329,6 +328,7 @@ fn with_scalp(surface: Surface, scalp: &[f64]) -> Surface {
     surface.with_features(features).expect("a tint for each vertex")
 }
 
+/// The digest of a head.
 fn fingerprint(surface: &Surface, scalp: &[f64]) -> u64 {
     let positions = surface.positions().iter().flat_map(DVec3::to_array);
     Digest::new("head")
