@@ -92,8 +92,8 @@ struct Cover {
 const LIPS: vec3<f32> = vec3<f32>(0.83, 0.58, 0.60);
 const FLUSH: vec3<f32> = vec3<f32>(0.98, 0.80, 0.80);
 const SCALP: vec3<f32> = vec3<f32>(0.76, 0.68, 0.65);
-const SCLERA: vec3<f32> = vec3<f32>(0.42, 0.385, 0.36);
-const CORNER: vec3<f32> = vec3<f32>(0.50, 0.33, 0.29);
+const SCLERA: vec3<f32> = vec3<f32>(0.40, 0.365, 0.34);
+const CORNER: vec3<f32> = vec3<f32>(0.38, 0.25, 0.22);
 const IRIS: f32 = 0.44;
 const PUPIL: f32 = 0.15;
 // Gloss of a wet eye, Blinn-Phong: its mirror image of a lamp is a small bright spot. Chosen by eye.
