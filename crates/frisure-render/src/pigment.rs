@@ -1,6 +1,6 @@
 //! Absorption along each strand: pigment, fades, dye and white hairs.
 
-use frisure_look::{Dye, Fade, HairLook};
+use frisure_look::{Dye, Fade, HairLook, Melanin, absorption};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
@@ -22,6 +22,10 @@ pub(crate) struct Pigments {
     natural: Vec3,
     /// Factor on the natural absorption of each strand; white hairs have 0.
     factors: Vec<f32>,
+    /// How much more pigment a strand has than others, over theirs; empty where none has.
+    more: Vec<f32>,
+    /// Absorption of as much of it as others have.
+    ash: Vec3,
     along: Option<Along>,
 }
 
@@ -42,9 +46,10 @@ impl Pigments {
             Some(AttributeValues::F32(tint)) => tint.iter().map(|&t| bounded(t)).collect(),
             _ => varied(strands, look),
         };
-        if let Some(AttributeValues::F32(pigment)) = values(strands, PIGMENT) {
-            factors.iter_mut().zip(pigment).for_each(|(factor, &more)| *factor *= bounded(more));
-        }
+        let more = match values(strands, PIGMENT) {
+            Some(AttributeValues::F32(all)) => all.iter().map(|&all| bounded(all) - 1.0).collect(),
+            _ => Vec::new(),
+        };
         if look.white_share > 0.0 {
             let guides = guides(strands);
             let threshold = normal_quantile(look.white_share);
@@ -55,7 +60,11 @@ impl Pigments {
             }
         }
         let natural = look.natural().max(Vec3::ZERO);
-        Self { natural, factors, along: Along::new(strands, look) }
+        // Brows and lashes are darker than the hair of the head, not redder, and the skin between them reddens them: what they have more
+        // is half eumelanin and half black, with the green of the natural pigments. Chosen by eye.
+        let eumelanin = absorption(Melanin { eumelanin: 1.0, pheomelanin: 0.0 });
+        let ash = (eumelanin / eumelanin.y + Vec3::ONE) * (0.5 * natural.y);
+        Self { natural, factors, more, ash, along: Along::new(strands, look) }
     }
 
     /// Whether strands differ from root to tip.
@@ -66,7 +75,9 @@ impl Pigments {
     /// Absorption per mean radius of a strand, `place` points from its root: 2.5 is in the middle
     /// between the third point and the fourth.
     pub(crate) fn at(&self, strand: u32, place: f32) -> Vec3 {
-        let natural = self.natural * self.factors[strand as usize];
+        let index = strand as usize;
+        let more = self.more.get(index).copied().unwrap_or(0.0);
+        let natural = (self.natural + self.ash * more) * self.factors[index];
         self.along.as_ref().map_or(natural, |along| along.at(natural, strand, place))
     }
 }
