@@ -63,7 +63,13 @@ fn cut(bencher: Bencher<'_, '_>, contact: usize) {
     styled(bencher, contact, &[wetting()], &fringe());
 }
 
-/// All hair dried after that.
+/// All hair cut at the chin as it hangs: each drawn hair where it crosses the line.
+#[divan::bench(args = 0..2, sample_count = 8)]
+fn cut_as_it_hangs(bencher: Bencher<'_, '_>, contact: usize) {
+    styled(bencher, contact, &[], &Operation::Cut(Cut::default()));
+}
+
+/// All hair dried after the fringe was cut.
 #[divan::bench(args = 0..2, sample_count = 8)]
 fn dry(bencher: Bencher<'_, '_>, contact: usize) {
     let drying = Operation::Dry(frisure_hairstyle::styling::Dry::default());

@@ -4,13 +4,13 @@
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 
-use frisure_rod::inverse::{FittedCurve, InverseSolution};
+use frisure_rod::inverse::{Balance, FittedCurve, InverseSolution};
 use frisure_rod::potential::FieldPotential;
-use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, Root as Clamp};
+use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, Rod, RodSpec, Root as Clamp};
 use frisure_strands::{Strand, Strands};
 use glam::DVec3;
 
-use crate::contact::Bed;
+use crate::contact::{Bed, BodyContact, CombedHold};
 use crate::equilibrium::{
     Effort, GuideStart, SettleOptions, combed_hold, held_up, holding, settle,
 };
@@ -168,8 +168,8 @@ fn held(
     }
     let skin: Vec<(f64, DVec3)> =
         fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
-    let supported = |like: &Rod, hold| supported(spec, head, (&fitted, &skin), like, hold);
-    let free = supported(fitted.rod(), DVec3::ZERO)?;
+    let strand = GroomStrand { spec, head, fitted: &fitted, skin: &skin };
+    let free = strand.support(fitted.rod(), DVec3::ZERO);
     let root = fitted.rod().root();
     let normal = skin[0].1.normalize_or_zero();
     let along = root.frame().z_axis;
@@ -177,41 +177,92 @@ fn held(
     let marks = head.landmarks();
     let hold = spec.implantation.hold * out_of_face(marks, root.position(), along);
     if hold <= 0.0 {
-        return Ok(free);
+        return strand.held(free);
     }
     let hold = marks.face * -hold;
-    // How far the hold reaches depends on the curl that is found.
-    let guess = supported(fitted.rod(), hold)?;
-    let held = supported(&guess.fit.rod, hold)?;
-    // A shape that is stable first.
-    let effort = |held: &Held| (held.fit.stiffness_needed, held.fit.target.energy.elastic);
-    Ok(if effort(&held) < effort(&free) { held } else { free })
+    // 1. How far the hold reaches depends on the curl that is found.
+    let guess = strand.balance(&strand.support(fitted.rod(), hold))?;
+    let held = strand.support(&guess.rod, hold);
+    // 2. A shape that is stable first. Balance tells, in a tenth of the time in which the rest is found.
+    let effort = |needed: f64, target: &Equilibrium| (needed, target.energy.elastic);
+    let of = |support: &Support| {
+        let balance = strand.balance(support)?;
+        Ok::<_, InvalidQuantity>(effort(balance.stiffness_needed, &balance.target))
+    };
+    let (first, second) = if of(&held)? < of(&free)? { (held, free) } else { (free, held) };
+    let first = strand.held(first)?;
+    if first.fit.stiffness_needed <= 1.0 {
+        return Ok(first);
+    }
+    // 3. Unstable after all, in a finer division.
+    let second = strand.held(second)?;
+    let of = |held: &Held| effort(held.fit.stiffness_needed, &held.fit.target);
+    Ok(if of(&second) < of(&first) { second } else { first })
 }
 
-/// The same on the bed that it needs, held with `hold` times its weight per length as far as a rod with the curl
-/// of `like` is; `skin` has the distance from it (m) and its gradient at each node.
-fn supported(
-    spec: &HairstyleSpec,
-    head: &Head,
-    (fitted, skin): (&FittedCurve, &[(f64, DVec3)]),
-    like: &Rod,
+/// A strand of a groom on a head; `skin` has the distance from it (m) and its gradient at each node.
+struct GroomStrand<'a> {
+    spec: &'a HairstyleSpec,
+    head: &'a Head,
+    fitted: &'a FittedCurve,
+    skin: &'a [(f64, DVec3)],
+}
+
+/// What bears a strand besides its own stiffness.
+struct Support {
+    /// The hair beneath it.
+    bed: Bed,
+    /// Force per length, in weights of the hair, that holds it out of the face, …
     hold: DVec3,
-) -> Result<Held, InvalidQuantity> {
-    let combed = combed_hold(like, hold);
-    let bears = spec.contact.body != Body::None;
-    let beneath = |(distance, out): &(f64, DVec3)| {
-        (bears && *distance < DEEPEST_BED).then(|| out.normalize_or_zero())
-    };
-    let ways: Vec<Option<DVec3>> = skin.iter().map(beneath).collect();
-    // The forces of (I2), docs/theory.md, "Inverse statics", as forces per length on a bed of the height that bears them.
-    let forces = spread(&fitted.least_support(&ways, |s| combed.force(s)));
-    let spacing = fitted.rod().length() / (skin.len() - 1) as f64;
-    let borne = skin.iter().zip(&forces).map(|((distance, _), force)| (*distance, force / spacing));
-    let bed = Bed::new(spacing, borne, spec.contact.hair_stiffness);
-    let samples = (spacing / FELT).ceil().max(1.0) as u32;
-    let under = held_up(spec, head, fitted.rod(), &bed, combed);
-    let fit = fitted.solve(&[&FieldPotential::new(&under, samples)], &holding(spec))?;
-    Ok(Held { fit, bed, hold })
+    /// … and how far.
+    combed: CombedHold,
+}
+
+impl GroomStrand<'_> {
+    /// The bed that it needs where it is held with `hold` times its weight per length as far as a rod with the curl of `like` is.
+    fn support(&self, like: &Rod, hold: DVec3) -> Support {
+        let &Self { spec, fitted, skin, .. } = self;
+        let combed = combed_hold(like, hold);
+        let bears = spec.contact.body != Body::None;
+        let beneath = |(distance, out): &(f64, DVec3)| {
+            (bears && *distance < DEEPEST_BED).then(|| out.normalize_or_zero())
+        };
+        let ways: Vec<Option<DVec3>> = skin.iter().map(beneath).collect();
+        // The forces of (I2), docs/theory.md, "Inverse statics", as forces per length on a bed of the height that bears them.
+        let forces = spread(&fitted.least_support(&ways, |s| combed.force(s)));
+        let spacing = self.spacing();
+        let borne = skin.iter().zip(&forces);
+        let borne = borne.map(|((distance, _), force)| (*distance, force / spacing));
+        Support { bed: Bed::new(spacing, borne, spec.contact.hair_stiffness), hold, combed }
+    }
+
+    /// Distance (m) along it from node to node.
+    fn spacing(&self) -> f64 {
+        self.fitted.rod().length() / (self.skin.len() - 1) as f64
+    }
+
+    fn contact<'a>(&'a self, Support { bed, combed, .. }: &'a Support) -> BodyContact<'a> {
+        held_up(self.spec, self.head, self.fitted.rod(), bed, *combed)
+    }
+
+    /// The potential of a contact along it.
+    fn along<'a>(&self, contact: &'a BodyContact<'a>) -> FieldPotential<'a, BodyContact<'a>> {
+        FieldPotential::new(contact, (self.spacing() / FELT).ceil().max(1.0) as u32)
+    }
+
+    /// The fibre that is in balance on a support.
+    fn balance(&self, support: &Support) -> Result<Balance, InvalidQuantity> {
+        let contact = self.contact(support);
+        self.fitted.balance(&[&self.along(&contact)])
+    }
+
+    /// The fibre that rests on a support.
+    fn held(&self, support: Support) -> Result<Held, InvalidQuantity> {
+        let contact = self.contact(&support);
+        let fit = self.fitted.solve(&[&self.along(&contact)], &holding(self.spec))?;
+        let Support { bed, hold, .. } = support;
+        Ok(Held { fit, bed, hold })
+    }
 }
 
 /// Forces at nodes, each shared with its neighbours: hair lies on hair, not on the points of a comb.
@@ -342,7 +393,7 @@ fn plan(
 }
 
 /// Largest distance (m) of a line's points from a guide at rest, each at its part of the length.
-fn apart(line: &[DVec3], rest: &frisure_rod::Equilibrium) -> f64 {
+fn apart(line: &[DVec3], rest: &Equilibrium) -> f64 {
     let chain = rest.chain();
     let length: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let every = line.len().div_ceil(COMPARED);

@@ -80,7 +80,7 @@ fn a_session_from_the_gallery_to_a_groom() {
 #[test]
 fn a_dragged_slider_shows_coarse_hair_and_makes_one_edit() {
     let mut world = World::new();
-    world.small("wavy");
+    world.of("wavy", 16);
     let edits = world.salon.document.as_ref().unwrap().edits().len();
     for cm in [12.0, 14.0, 16.0, 18.0] {
         world.run(Command::Drag("hair.length", cm));
@@ -459,7 +459,7 @@ fn absurd_commands_leave_a_valid_state() {
     for command in absurd() {
         world.salon.run(command);
     }
-    world.small("curly");
+    world.of("curly", 12);
     for command in absurd() {
         world.run(command);
     }
@@ -501,7 +501,7 @@ fn restarted_workers_run_the_lost_jobs_again() {
 /// An exercise of the gallery with few hairs, so that tests are quick, as the code of a link.
 fn small_exercise(card: &ExerciseCard) -> Command {
     let few =
-        [("wisps.count", Some("24")), ("wisps.hairs", Some("480")), ("wisps.points", Some("10"))];
+        [("wisps.count", Some("24")), ("wisps.hairs", Some("240")), ("wisps.points", Some("10"))];
     Command::BeginExercise(code(&edit::set_keys(card.scene, &few).expect("a scene")))
 }
 

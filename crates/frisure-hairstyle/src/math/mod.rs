@@ -5,7 +5,7 @@ mod grid;
 
 use glam::{DMat3, DVec3};
 
-pub(crate) use crossing::first_positive;
+pub(crate) use crossing::Crossing;
 pub(crate) use grid::Grid;
 
 /// `a bᵀ`.

@@ -8,7 +8,7 @@ use super::population::Population;
 use super::skin::{Free, LAID, PRESSED, below};
 use super::splits::{OwnCurl, SplitId, SplitLine, Splits};
 use crate::implantation::Root;
-use crate::math::{first_positive, smooth_step};
+use crate::math::{Crossing, smooth_step};
 use crate::wisps::{BoundStrand, BoundStrands};
 
 /// Least length (m) along which hair gathers into wisps: short hair stands by itself. Chosen by eye; not measured.
@@ -28,8 +28,11 @@ const DRAWN_IN: f64 = 0.02;
 
 /// Distance (m) between the points between which the place of a cut is searched. Chosen by trial; not measured further.
 const CUT_STEP: f64 = 5e-3;
-/// How often the piece between two such points is halved: to a millionth of it.
-const HALVINGS: u32 = 20;
+/// How far (m) before the place of a cut a hair ends at most. Chosen: a thousandth of its thickness.
+const BEFORE_CUT: f64 = 5e-8;
+/// How much nearer to a line a hair comes at most, as a multiple of the length that it goes on: what would be stretched more is drawn
+/// in later ([`STRETCHED`]), and skin moves it aside. Chosen.
+const NEARER: f64 = 2.0;
 
 /// One drawn hair.
 pub(super) struct Hair {
@@ -138,8 +141,8 @@ impl Population<'_> {
         mean.normalize_or(binding.root.normal)
     }
 
-    /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to
-    /// where `outside` is positive; none if it does not.
+    /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to where `outside`, a distance (m), is
+    /// positive; none if it does not.
     pub(crate) fn cut_where(
         &self,
         root: &Root,
@@ -147,10 +150,13 @@ impl Population<'_> {
         outside: impl Fn(DVec3) -> f64,
     ) -> Option<f64> {
         let binding = self.bind(root, index);
-        let steps = (binding.end * binding.length / CUT_STEP).ceil().clamp(8.0, 400.0) as usize;
-        let at = |x: f64| outside(self.point(&binding, x, &mut { Free::NOWHERE }));
-        let left = first_positive(binding.end, steps, HALVINGS, at)?;
-        Some(left * binding.length / self.stretch(binding.main()))
+        let StrandBinding { end, length, .. } = binding;
+        let steps = (end * length / CUT_STEP).ceil().clamp(8.0, 400.0) as usize;
+        let rise = NEARER * end * length / steps as f64;
+        let mut free = Free::NOWHERE;
+        let line = Crossing { end, steps, rise, near: BEFORE_CUT };
+        let left = line.first(|x| outside(self.point(&binding, x, &mut free)))?;
+        Some(left * length / self.stretch(binding.main()))
     }
 
     /// Point of a hair at `x` of its guides' length.

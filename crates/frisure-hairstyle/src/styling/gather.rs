@@ -147,6 +147,9 @@ pub(super) fn gathered(
     if places.is_empty() {
         return Err(StyleError::NothingReached { long_enough });
     }
+    if to.in_hand && places.len() == long_enough {
+        return Ok(tried);
+    }
     let last = if to.in_hand { &hand } else { act };
     last.on(&in_hand).with(before.styling.held_at(by, places.into_iter()))
 }

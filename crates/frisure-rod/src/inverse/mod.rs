@@ -43,4 +43,4 @@ mod curve;
 mod solve;
 mod support;
 
-pub use solve::{FittedCurve, InverseSolution, solve};
+pub use solve::{Balance, FittedCurve, InverseSolution, solve};

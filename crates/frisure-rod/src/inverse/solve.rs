@@ -33,6 +33,17 @@ pub struct InverseSolution {
     pub stiffness_needed: f64,
 }
 
+/// A rod with the natural strain with which a given shape is in balance, before that is corrected by where the rod rests.
+#[derive(Clone, Debug)]
+pub struct Balance {
+    /// The rod.
+    pub rod: Rod,
+    /// The given shape as a shape of this rod.
+    pub target: Equilibrium,
+    /// Least factor on the stiffness of the fibre with which the given shape is stable in this division; 1 if it is as it is.
+    pub stiffness_needed: f64,
+}
+
 /// Largest turn (rad) of the line within an element. Chosen by trial; not measured further.
 const LARGEST_TURN: f64 = 0.12;
 
@@ -140,6 +151,15 @@ impl FittedCurve {
         support::least_energy_forces(&self.rod, &self.target, &loads, beneath)
     }
 
+    /// The rod that is in balance in this shape, without looking where it rests: what [`Self::solve`] begins with, in a small part of
+    /// its time. `external` are the potentials that act on it besides its weight.
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`], if the natural strain that it would need is not finite.
+    pub fn balance(&self, external: &[&dyn Potential]) -> Result<Balance, InvalidQuantity> {
+        self.balance_with(&self.balanced(external), external)
+    }
+
     /// The rod that rests in this shape. `external` are the potentials that act on it besides its weight, and
     /// `options` how its equilibrium is searched for.
     ///
@@ -179,8 +199,7 @@ impl FittedCurve {
         external: &[&dyn Potential],
         options: &Options,
     ) -> Result<InverseSolution, InvalidQuantity> {
-        let chain = Chain::uniform(&self.rod, ElementKind::Helix, self.target.controls.len());
-        let mut strains = balanced(&Problem::new(&chain, external), &self.target);
+        let mut strains = self.balanced(external);
         let mut best = self.with_strains(&strains, external, options)?;
         let mut part = 1.0;
         for correction in 0..MOST_CORRECTIONS {
@@ -203,6 +222,12 @@ impl FittedCurve {
         Ok(best)
     }
 
+    /// The natural strains (rad/m, one per element) with which this shape is in balance.
+    fn balanced(&self, external: &[&dyn Potential]) -> Vec<DVec3> {
+        let chain = Chain::uniform(&self.rod, ElementKind::Helix, self.target.controls.len());
+        balanced(&Problem::new(&chain, external), &self.target)
+    }
+
     /// The rod with these natural strains (rad/m, one per element) and its equilibrium.
     fn with_strains(
         &self,
@@ -210,6 +235,18 @@ impl FittedCurve {
         external: &[&dyn Potential],
         options: &Options,
     ) -> Result<InverseSolution, InvalidQuantity> {
+        let Balance { rod, target, stiffness_needed } = self.balance_with(strains, external)?;
+        let equilibrium = equilibrium_from(&rod, external, options, &target);
+        let error = largest_distance(&self.line, &equilibrium);
+        Ok(InverseSolution { rod, equilibrium, target, error, stiffness_needed })
+    }
+
+    /// The rod with these natural strains (rad/m, one per element) in this shape.
+    fn balance_with(
+        &self,
+        strains: &[DVec3],
+        external: &[&dyn Potential],
+    ) -> Result<Balance, InvalidQuantity> {
         let (elements, length) = (strains.len(), self.line.length());
         let natural = profile(length / elements as f64, strains)?;
         let rod = Rod::new(RodSpec { natural, ..self.rod.spec().clone() })?;
@@ -227,13 +264,11 @@ impl FittedCurve {
             clear,
             crossed: false,
         };
-        let start = Equilibrium::from_minimum(&problem, minimum);
-        let equilibrium = equilibrium_from(&rod, external, options, &start);
-        let error = largest_distance(&self.line, &equilibrium);
+        let target = Equilibrium::from_minimum(&problem, minimum);
         // Stiffness makes the elastic part of the second variation greater, weight and contact stay: with
         // H x = λ M x, λ becomes 1 − (1 − λ) / factor.
         let stiffness_needed = if least > 0.0 { 1.0 } else { 1.0 - least };
-        Ok(InverseSolution { rod, equilibrium, target: start, error, stiffness_needed })
+        Ok(Balance { rod, target, stiffness_needed })
     }
 }
 

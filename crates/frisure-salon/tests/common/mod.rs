@@ -84,8 +84,14 @@ impl World {
 
     /// A head with few hairs, so that tests are quick.
     pub(crate) fn small(&mut self, hair_type: &str) {
+        self.of(hair_type, 40);
+    }
+
+    /// A head with so many wisps of a type.
+    pub(crate) fn of(&mut self, hair_type: &str, wisps: usize) {
+        let hairs = 6 * wisps;
         let text = format!(
-            "[hair]\ntype = \"{hair_type}\"\n\n[wisps]\ncount = 40\nhairs = 800\npoints = 12\n"
+            "[hair]\ntype = \"{hair_type}\"\n\n[wisps]\ncount = {wisps}\nhairs = {hairs}\npoints = 12\n"
         );
         let name = "small".to_owned();
         self.run(Command::Open { path: None, name, text });

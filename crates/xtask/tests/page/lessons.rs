@@ -93,12 +93,12 @@ fn the_solution_of_each_exercise_reaches_its_goal() {
     salon.is_quiet();
 }
 
-/// The scene with few guides, for the time's sake.
+/// The scene with few guides and hairs, for the time's sake.
 fn few(scene: &str) -> String {
     let start = scene.find("[wisps]").expect("wisps");
     let value = start + scene[start..].find("count = ").expect("a count") + "count = ".len();
     let end = value + scene[value..].find('\n').expect("an end");
-    format!("{}24\npoints = 10{}", &scene[..value], &scene[end..])
+    format!("{}24\nhairs = 2000\npoints = 10{}", &scene[..value], &scene[end..])
 }
 
 /// The code of a scene for the address of the page, as `docs/page.md` has it.

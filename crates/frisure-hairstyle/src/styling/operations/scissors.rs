@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::cut_line::{CutLine, Held};
 use crate::head::Head;
 use crate::implantation::Root;
-use crate::math::first_positive;
+use crate::math::Crossing;
 
 /// A cut on a head.
 pub(super) struct Scissors<'a> {
@@ -24,8 +24,8 @@ const ON_LINE: f64 = 1e-9;
 /// Points (per guide) between which a line is looked for. Chosen: two crossings within a piece are missed.
 const LOOKED_AT: usize = 256;
 
-/// How often the piece between two is halved: to rounding.
-const HALVINGS: u32 = 40;
+/// How far (m) before the line a guide is cut at most: rounding.
+const BEFORE_LINE: f64 = 1e-13;
 
 impl<'a> Scissors<'a> {
     pub(super) fn new(line: CutLine, held: Held, head: &'a Head) -> Self {
@@ -123,9 +123,12 @@ impl<'a> Scissors<'a> {
     /// How much (m) is left of a guide as it hangs.
     pub(super) fn left_hanging(&self, guide: &Equilibrium) -> f64 {
         let chain = guide.chain();
-        let beyond = |x: f64| self.beyond(guide.at(&chain, x).0);
-        let left = first_positive(1.0, LOOKED_AT, HALVINGS, beyond);
-        left.map_or(f64::INFINITY, |left| left * guide.rod.length())
+        let length = guide.rod.length();
+        // An inextensible rod comes no nearer to the line than it goes on.
+        let rise = length / LOOKED_AT as f64;
+        let line = Crossing { end: 1.0, steps: LOOKED_AT, rise, near: BEFORE_LINE };
+        let left = line.first(|x| self.beyond(guide.at(&chain, x).0));
+        left.map_or(f64::INFINITY, |left| left * length)
     }
 }
 
