@@ -206,7 +206,11 @@ impl Files {
     }
 }
 
-/// The bytes of a file of at most `limit` bytes; `what` names it in errors (`a scene`).
+/// Most that is read of a device or a pipe (bytes), which may have no end: more would take the memory before it is refused. Chosen:
+/// larger than any groom in the tests, a small part of the memory of a computer.
+const MOST_OF_STREAM: u64 = 1 << 30;
+
+/// The bytes of a file of at most `limit` bytes, of a device or a pipe of at most 1 GiB; `what` names it in errors (`a scene`).
 ///
 /// # Errors
 /// [`ReadError`], for a file that is missing, a directory, too large or unreadable.
@@ -218,10 +222,15 @@ pub fn read_bytes(path: &Path, limit: u64, what: &'static str) -> Result<Vec<u8>
         _ => ReadError::Io { path: path.into(), source },
     };
     // Asked before opening: a folder opens on some systems and fails at the first read on others.
-    if fs::metadata(path).map_err(fail)?.is_dir() {
+    let about = fs::metadata(path).map_err(fail)?;
+    if about.is_dir() {
         return Err(ReadError::Directory { path: path.into() });
     }
-    // One byte more than allowed: devices and pipes have no size to ask for.
+    let limit = if about.is_file() { limit } else { limit.min(MOST_OF_STREAM) };
+    if about.is_file() && about.len() > limit {
+        return Err(ReadError::TooLarge { path: path.into(), limit, what });
+    }
+    // One byte more than allowed: devices and pipes have no size to ask for, and files grow.
     let bytes = match pipe::read(path, limit + 1).map_err(fail)? {
         Some(bytes) => bytes,
         None => {

@@ -1,4 +1,4 @@
-//! Named pipes as inputs.
+//! Named pipes, devices and large files as inputs.
 #![cfg(any(target_os = "linux", target_os = "macos"))]
 
 use std::fs;
@@ -41,4 +41,20 @@ fn a_named_pipe_that_nobody_writes_is_an_error() {
     let error = read_bytes(&pipe(folder.path()), 1 << 20, "bytes").unwrap_err();
     let ReadError::Io { source, .. } = &error else { panic!("{error}") };
     assert!(source.to_string().contains("nobody writes the named pipe"), "{source}");
+}
+
+#[test]
+fn what_is_too_large_is_refused_without_reading_all_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let large = folder.path().join("large");
+    // A terabyte of nothing, which takes no room.
+    fs::File::create(&large).unwrap().set_len(1 << 40).unwrap();
+    let too_large = |path: &Path, limit: u64| match read_bytes(path, limit, "bytes") {
+        Err(ReadError::TooLarge { limit, .. }) => limit,
+        other => panic!("{:?}", other.map(|bytes| bytes.len())),
+    };
+    assert_eq!(too_large(&large, 8 << 30), 8 << 30);
+    assert_eq!(too_large(Path::new("/dev/zero"), 1 << 20), 1 << 20);
+    // Of what has no end, less than a file may have.
+    assert_eq!(too_large(Path::new("/dev/zero"), 8 << 30), 1 << 30);
 }
