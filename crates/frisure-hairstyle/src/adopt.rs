@@ -183,7 +183,7 @@ fn held(
     // 1. How far the hold reaches depends on the curl that is found.
     let guess = strand.balance(&strand.support(fitted.rod(), hold))?;
     let held = strand.support(&guess.rod, hold);
-    // 2. A shape that is stable first. Balance tells, in a tenth of the time in which the rest is found.
+    // 2. A shape that is stable first. Balance tells, in a small part of the time in which the rest is found.
     let effort = |needed: f64, target: &Equilibrium| (needed, target.energy.elastic);
     let of = |support: &Support| {
         let balance = strand.balance(support)?;
