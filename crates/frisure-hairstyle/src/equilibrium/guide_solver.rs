@@ -110,16 +110,12 @@ fn settle_changed(
             let lock = lock::started(spec, head, guide, before, lock);
             Rested { lock, ..Rested::free(before.clone()) }
         }
-        Change::Changed | Change::LetGo(_) | Change::HeldElsewhere(_)
-            if iterations < MAX_ITERATIONS =>
-        {
+        Change::Moulded => Rested::free(settle_one(spec, head, guide)),
+        Change::Handled => handled(spec, head, guide, before, lock),
+        _ if iterations < MAX_ITERATIONS => {
             settle_one_from(spec, head, guide, before, lock, iterations, Hold::ByFriction)
         }
-        Change::Changed | Change::LetGo(_) | Change::HeldElsewhere(_) => {
-            resettle_one(spec, head, guide, before, lock, &pulls(guide, change))
-        }
-        Change::Moulded => Rested::free(settle_one(spec, head, guide)),
-        Change::Handled => handled(spec, head, guide, before, lock, change),
+        _ => resettle_one(spec, head, guide, before, lock, &pulls(guide, change)),
     }
 }
 
@@ -130,11 +126,10 @@ fn handled(
     guide: &Guide,
     before: &Equilibrium,
     lock: &LockStart,
-    change: Change,
 ) -> Rested {
     // Two minima of the same energy: downhill from where it lay, and along gravity's branch from its root. A hand that lifts
-    // hair frees it of friction: what falls has none.
-    let lying = resettle_one(spec, head, guide, before, lock, &pulls(guide, change));
+    // hair frees it of friction: what falls has none. What holds the hair goes on holding it.
+    let lying = resettle_one(spec, head, guide, before, lock, &pulls(guide, Change::StillHeld));
     let fallen = settle_one(spec, head, guide);
     let lower = fallen.energy.total() < lying.rest.energy.total();
     if lower && depth(head, &fallen) <= DEEPEST { Rested::free(fallen) } else { lying }
@@ -153,6 +148,7 @@ fn pulls(guide: &Guide, change: Change) -> Vec<Option<Pull>> {
         (Some(pull), Change::HeldElsewhere(from)) => {
             MOVING.iter().map(|&share| Some(from.moved(pull, share))).collect()
         }
+        (Some(pull), Change::StillHeld) => vec![Some(pull)],
         (Some(pull), _) => PULLS.iter().map(|&share| Some(pull.scaled(share))).collect(),
         (None, Change::LetGo(gone)) => {
             let going = LETTING_GO.iter().map(|&share| Some(gone.scaled(share)));

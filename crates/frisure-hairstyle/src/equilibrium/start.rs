@@ -40,6 +40,8 @@ pub(crate) enum Change {
     LetGo(Pull),
     /// It was held by this and is held somewhere else now, without having been let go.
     HeldElsewhere(Pull),
+    /// It was held and is held in the same way, however its fibre has changed: nothing has let go of it in between.
+    StillHeld,
 }
 
 impl Change {

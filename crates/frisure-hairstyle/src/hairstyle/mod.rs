@@ -46,6 +46,17 @@ impl Hairstyle {
         &self.styling.wisps
     }
 
+    /// Takes over a wisp and how it rests from another state of the same hair.
+    pub(crate) fn take_wisp(&mut self, index: usize, other: &Self) {
+        self.guides[index].clone_from(&other.guides[index]);
+        self.rest.guides[index].clone_from(&other.rest.guides[index]);
+        self.rest.friction[index] = other.rest.friction[index];
+        if let Some(lock) = self.rest.locks.get_mut(index) {
+            lock.clone_from(&other.rest.locks[index]);
+        }
+        self.styling.wisps[index].clone_from(&other.styling.wisps[index]);
+    }
+
     /// Whether anything was done to it since it was predicted.
     #[must_use]
     pub fn is_styled(&self) -> bool {

@@ -143,13 +143,22 @@ pub(super) fn gathered(
         rest.at(&rest.chain(), at).0.distance(to) <= REACHED
     };
     let long_enough = places.len();
-    let places: Vec<_> = places.into_iter().filter(reached).collect();
+    let (places, caught): (Vec<_>, Vec<_>) = places.into_iter().partition(reached);
     if places.is_empty() {
         return Err(StyleError::NothingReached { long_enough });
     }
-    if to.in_hand && places.len() == long_enough {
+    if to.in_hand && caught.is_empty() {
         return Ok(tried);
     }
+    // 5. The rest stays held while wisps make way for each other; what is caught is let go from where it was lifted.
+    let mut held = tried;
+    for &(i, ..) in &caught {
+        held.take_wisp(i, &in_hand);
+    }
+    let mut styling = held.styling.held_at(by, places.into_iter());
+    for (i, ..) in caught {
+        styling.wisps[i].clone_from(&before.styling.wisps[i]);
+    }
     let last = if to.in_hand { &hand } else { act };
-    last.on(&in_hand).with(before.styling.held_at(by, places.into_iter()))
+    last.on(&held).with(styling)
 }

@@ -199,10 +199,11 @@ impl<'a> Act<'a> {
                 _ if !changed => Change::None,
                 _ if replanted || moulded => Change::Moulded,
                 Some(pull) if new.is_none() => Change::LetGo(pull),
-                // The fibre may have changed, too: then it is held anew.
                 Some(pull) if new != old && matches!(new, Some(Grip::Clip { .. })) => {
                     Change::HeldElsewhere(pull)
                 }
+                // The fibre has changed, or a hand has gone over it, but nothing has let go.
+                Some(_) if new == old && otherwise == Change::Changed => Change::StillHeld,
                 _ => otherwise,
             }
         };
