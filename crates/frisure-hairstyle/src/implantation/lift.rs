@@ -12,13 +12,18 @@ pub(crate) fn angle(marks: &Landmarks, lift: Lift, p: DVec3, combed: f64) -> f64
     match lift {
         Lift::Uniform(angle) => angle,
         Lift::Regional { scale } => {
-            (regional_degrees(marks, p, combed) * scale).clamp(0.0, 90.0).to_radians()
+            let most = 90.0 + (COMBED_MOST - 90.0) * combed;
+            (regional_degrees(marks, p, combed) * scale).clamp(0.0, most).to_radians()
         }
     }
 }
 
 /// Angle (degrees) at the forehead's hairline where hair is combed: the lower end of the measured range.
 const COMBED_HAIRLINE: f64 = 10.0;
+
+/// Steepest angle (degrees) to the skin of combed hair, between the 60 measured at the crown and upright. Chosen by eye: at 90 long hair has
+/// no side to fall to, and a tuft stands on the crown.
+const COMBED_MOST: f64 = 70.0;
 
 /// Measured implantation angles (degrees to the skin): hairline 10–20, temples 3–10, mid-scalp 30,
 /// rising to 60 at the crown (docs/theory.md, "Roots and implantation").
