@@ -25,7 +25,7 @@ use crate::math::Grid;
 use crate::parallel;
 use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
-use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
+use crate::spec::{Body, HairContact, Hairs, HairstyleSpec, Implantation};
 use crate::wisps::Wisp;
 use crate::wisps::{BoundStrands, WISP_SAMPLES};
 use frisure_progress::{Progress, StageCounter};
@@ -169,35 +169,50 @@ fn held(
     let skin: Vec<(f64, DVec3)> =
         fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
     let strand = GroomStrand { spec, head, fitted: &fitted, skin: &skin };
-    let free = strand.support(fitted.rod(), DVec3::ZERO);
     let root = fitted.rod().root();
     let normal = skin[0].1.normalize_or_zero();
     let along = root.frame().z_axis;
     let along = along - normal * along.dot(normal);
     let marks = head.landmarks();
-    let hold = spec.implantation.hold * out_of_face(marks, root.position(), along);
-    if hold <= 0.0 {
+    let out = marks.face * -out_of_face(marks, root.position(), along);
+    let free = strand.support(fitted.rod(), DVec3::ZERO);
+    let hold = spec.implantation.hold;
+    if out == DVec3::ZERO || hold <= 0.0 {
         return strand.held(free);
     }
-    let hold = marks.face * -hold;
-    // 1. How far the hold reaches depends on the curl that is found.
-    let guess = strand.balance(&strand.support(fitted.rod(), hold))?;
-    let held = strand.support(&guess.rod, hold);
-    // 2. A shape that is stable first. Balance tells, in a small part of the time in which the rest is found.
-    let effort = |needed: f64, target: &Equilibrium| (needed, target.energy.elastic);
-    let of = |support: &Support| {
-        let balance = strand.balance(support)?;
-        Ok::<_, InvalidQuantity>(effort(balance.stiffness_needed, &balance.target))
-    };
-    let (first, second) = if of(&held)? < of(&free)? { (held, free) } else { (free, held) };
-    let first = strand.held(first)?;
-    if first.fit.stiffness_needed <= 1.0 {
-        return Ok(first);
+    // 1. Without a hold, with that of the description, and where that is stronger than usual with the usual one: nobody knows how well
+    // the hair of a groom was combed. How far a hold reaches depends on the curl that is found.
+    let usual = Implantation::default().hold;
+    let mut tried = vec![free];
+    let weaker = Some(usual).filter(|usual| *usual < hold);
+    for hold in [Some(hold), weaker].into_iter().flatten() {
+        let guess = strand.balance(&strand.support(fitted.rod(), out * hold))?;
+        tried.push(strand.support(&guess.rod, out * hold));
     }
-    // 3. Unstable after all, in a finer division.
-    let second = strand.held(second)?;
-    let of = |held: &Held| effort(held.fit.stiffness_needed, &held.fit.target);
-    Ok(if of(&second) < of(&first) { second } else { first })
+    // 2. Of these in the order of the stiffness that a stable shape needs, then of bending. Balance tells, in a small part of the time in
+    // which the rest is found.
+    let effort = |needed: f64, target: &Equilibrium| [needed, target.energy.elastic];
+    let mut tried = tried
+        .into_iter()
+        .map(|support| {
+            let balance = strand.balance(&support)?;
+            Ok((effort(balance.stiffness_needed, &balance.target), support))
+        })
+        .collect::<Result<Vec<_>, InvalidQuantity>>()?;
+    tried.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    // 3. The next one only where the one before is unstable after all, in a finer division.
+    let mut best: Option<([f64; 2], Held)> = None;
+    for (_, support) in tried {
+        let held = strand.held(support)?;
+        let of = effort(held.fit.stiffness_needed, &held.fit.target);
+        if of[0] <= 1.0 {
+            return Ok(held);
+        }
+        if best.as_ref().is_none_or(|(least, _)| of < *least) {
+            best = Some((of, held));
+        }
+    }
+    Ok(best.expect("hair without a hold is among them").1)
 }
 
 /// A strand of a groom on a head; `skin` has the distance from it (m) and its gradient at each node.
