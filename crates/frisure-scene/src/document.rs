@@ -138,7 +138,10 @@ impl<'a> Document<'a> {
 
     /// The number at a path, if it is given (SI units).
     pub(crate) fn number(&self, path: &str) -> Option<f64> {
-        let declared = || KEYS.iter().any(|declared| declared.path == without_index(path).0);
+        let declared = || {
+            let general = without_index(path).0;
+            KEYS.iter().any(|declared| declared.path == general)
+        };
         debug_assert!(declared(), "`{path}` is not declared");
         self.numbers.get(path).copied()
     }

@@ -255,7 +255,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "implantation.whorl_turn" => value::<OneOf<Keyword<Turn>>>();
         /// Angle to the skin, the same everywhere; {}.
         "implantation.lift" => number::<Angle>();
-        /// Instead of `lift`: factor on the angles measured by region; {}.
+        /// Instead of `lift`: factor on the angles measured by region; {}. No combed hair is steeper than 70 degrees by it.
         "implantation.lift_scale" => number::<Ratio>()
             .slider(Panel::Implantation, "Lift", TIMES, (0.0, 4.0), 2,
                 "Factor on the angle at which hair leaves the skin, as measured by region.")

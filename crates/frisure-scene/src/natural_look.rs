@@ -1,4 +1,4 @@
-//! The colours of hair and skin that a hair type brings with it, and a head.
+//! The colours of hair and skin that a hair type brings with it, a head, and whether it is cut.
 
 use frisure_hairstyle::Preset;
 use frisure_look::{HairLook, Shade, SkinLook, linear_from_srgb};
@@ -21,6 +21,11 @@ pub struct NaturalLook {
     pub skin: [f64; 3],
     /// The built-in head of a scene that begins with the type ([`template`](crate::template)); without `head.model` it is the mannequin.
     pub model: &'static str,
+    /// Whether a scene that begins with the type is cut to a soft line at the shoulders: hair of one length that hangs ends in a
+    /// point at the back, as nobody wears it. Short coils stand.
+    pub cut: bool,
+    /// Whether its hair is held better than usual out of the face ([`hold`](frisure_hairstyle::Implantation::hold)): curls that hang fall into it.
+    pub pinned: bool,
 }
 
 /// Skins (sRGB) from light to dark. Chosen: lightness falls in steps of about 10 CIELAB units from L* = 65 to L* = 37, with
@@ -39,6 +44,13 @@ const fn rgb(red: u8, green: u8, blue: u8) -> [f64; 3] {
 const AFRICAN: &str = "african-woman";
 const ASIAN: &str = "asian-man";
 const EUROPEAN: &str = "european-woman";
+
+/// Hair types that are worn uncut: they stand off the head. Chosen.
+const UNCUT: [&str; 8] =
+    ["african-coily", "african-kinky", "frizzy", "coily", "kinky", "type-6", "type-7", "type-8"];
+
+/// Hair types that are pinned out of the face while they dry. Chosen.
+const PINNED: [&str; 4] = ["caucasian-curly", "curly", "type-4", "type-5"];
 
 /// Hair type, colour of the hair, skin, head. What is chosen and why: `docs/hair-types.md`, "Colour and skin".
 const LOOKS: [(&str, &str, [f64; 3], &str); 21] = [
@@ -74,7 +86,9 @@ impl NaturalLook {
     pub fn of(preset: &Preset) -> Self {
         let (_, colour, skin, model) =
             LOOKS.iter().find(|look| look.0 == preset.name).expect("each preset has a look");
-        Self { colour: Shade::named(colour).expect("a shade of the list"), skin: *skin, model }
+        let colour = Shade::named(colour).expect("a shade of the list");
+        let is_in = |names: &[&str]| names.contains(&preset.name);
+        Self { colour, skin: *skin, model, cut: !is_in(&UNCUT), pinned: is_in(&PINNED) }
     }
 
     /// Hair of this colour.
@@ -117,5 +131,11 @@ mod tests {
             assert!(look.hair().natural().is_finite() && look.skin().colour.min_element() > 0.0);
         }
         assert_eq!(LOOKS.len(), PRESETS.len());
+        assert!(
+            UNCUT
+                .iter()
+                .chain(&PINNED)
+                .all(|name| PRESETS.iter().any(|preset| preset.name == *name))
+        );
     }
 }

@@ -1,7 +1,5 @@
 //! A scene to start from.
 
-use std::fmt::Write;
-
 use frisure_hairstyle::Preset;
 
 use crate::natural_look::NaturalLook;
@@ -13,10 +11,7 @@ pub fn template(preset: &Preset) -> String {
     let spec = preset.spec();
     let (section, wisps) = (spec.fibre.section, spec.wisps);
     let (radius, pitch) = spec.curl.radius_pitch().unwrap_or((0.0, 0.0));
-    let mut out = String::new();
-    // Writing to a String cannot fail.
-    let _ = write!(
-        out,
+    format!(
         r##"# A scene for frisure. Every key has a default; take away a `#` to change one.
 # Quantities are texts with a unit ("25 cm", "70 um", "2.5 GPa", "80 deg") or bare SI numbers.
 
@@ -48,7 +43,7 @@ type = "{name}"  # {description}
 # flow = "parted"                 # or "whorl", "swept-back"
 # parting = "2 cm"                # to the head's left; or "middle", "right", "zigzag"
 # baby_hairs = 0.25               # of the hairs along the hairline
-# lift_scale = {lift:.1}                # angle to the skin, against the measured
+{hold}# lift_scale = {lift:.1}                # angle to the skin, against the measured
 
 [wisps]
 # count = {count}                     # each has one computed guide
@@ -66,7 +61,7 @@ type = "{name}"  # {description}
 # width = 900
 # height = 1100
 
-# [[step]]                        # done to the hair, in this order; `frisure style` adds more
+{cut}# [[step]]                        # done to the hair, in this order; `frisure style` adds more
 # cut = {{ below = "chin", where = "sides" }}
 "##,
         name = preset.name,
@@ -86,14 +81,37 @@ type = "{name}"  # {description}
         fuzziness = wisps.fuzziness,
         head = head_line(preset),
         look = look_lines(preset),
-    );
-    out
+        hold = hold_line(preset),
+        cut = cut_lines(preset),
+    )
 }
 
 /// The built-in head.
 fn head_line(preset: &Preset) -> String {
     let model = format!("model = \"{}\"", NaturalLook::of(preset).model);
     format!("{model:<34}# or \"mannequin\", ...: `frisure presets`; or mesh = \"head.obj\"")
+}
+
+/// How combed hair is held, if better than usual.
+fn hold_line(preset: &Preset) -> &'static str {
+    if NaturalLook::of(preset).pinned {
+        "hold = 2.0                        # pinned out of the face while it dried\n"
+    } else {
+        ""
+    }
+}
+
+/// The haircut.
+fn cut_lines(preset: &Preset) -> &'static str {
+    match NaturalLook::of(preset).cut {
+        true => {
+            r#"[[step]]                          # to a soft line: hair of one length ends in a point
+cut = { below = "shoulders", resting = true, point_cut = "15 mm" }
+
+"#
+        }
+        false => "",
+    }
 }
 
 /// The keys of colours, commented out, with those of the type.

@@ -71,7 +71,11 @@ fn every_template_is_its_preset_and_so_it_is_uncommented() {
         let text = template(preset);
         // It begins on a person, who has a hairline of her own.
         let mut expected = preset.spec();
-        expected.implantation.hairline = Hairline::usual(NaturalLook::of(preset).model);
+        let natural = NaturalLook::of(preset);
+        expected.implantation.hairline = Hairline::usual(natural.model);
+        if natural.pinned {
+            expected.implantation.hold = 2.0;
+        }
         assert_eq!(good(&text).hairstyle_spec().unwrap(), expected, "{text}");
         // With the numbers in its comments, which are rounded.
         let loud = text.replace("\n# ", "\n").replacen("A scene for", "# A scene for", 1);
