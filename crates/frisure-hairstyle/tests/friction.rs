@@ -91,7 +91,9 @@ fn what_was_combed_holds_the_better_the_higher_the_friction() {
 fn the_number_of_threads_changes_no_bit() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| combed_and_let_go(HairContact::Wisps, 0.3, 1).0)
+        pool.install(|| {
+            combed(&hairstyle("caucasian-straight", 30, HairContact::Wisps, 0.3), false)
+        })
     };
     let (one, three) = (on(1), on(3));
     for (a, b) in one.equilibria().iter().zip(three.equilibria()) {
@@ -101,7 +103,7 @@ fn the_number_of_threads_changes_no_bit() {
 
 #[test]
 fn all_wisps_together_agree_with_friction() {
-    let mut spec = spec("caucasian-wavy", 40, HairContact::Wisps, 0.3);
+    let mut spec = spec("caucasian-wavy", 30, HairContact::Wisps, 0.3);
     spec.equilibrium.method = HeadMethod::Continuation;
     let together = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let report = settling_report(&together, &HEAD);
@@ -114,7 +116,7 @@ fn all_wisps_together_agree_with_friction() {
     let pairs = together.equilibria().iter().zip(longer.equilibria());
     let mut moves: Vec<f64> = pairs.map(|(a, b)| a.tip().distance(b.tip())).collect();
     moves.sort_by(f64::total_cmp);
-    assert!(moves[20] < 5e-5, "{moves:?}");
+    assert!(moves[15] < 5e-5, "{moves:?}");
 }
 
 #[test]

@@ -104,13 +104,17 @@ impl Hanging {
         joined(zeta.cross(u), moment.cross(u) + load)
     }
 
-    /// The linearised equations for a small change of the solution.
-    pub(super) fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
+    /// The linearised equations at a solution, for small changes of it.
+    pub(super) fn linearised(&self, s: f64, y: &[f64]) -> impl Fn(&[f64]) -> [f64; 6] + use<> {
         let (zeta, moment) = halves(y);
-        let (d_zeta, d_moment) = halves(by);
-        let (u, du) = (self.strain(s, moment), d_moment / self.stiffness);
-        let load = DVec3::Z.cross(d_zeta) * (self.weight * (1.0 - s));
-        joined(d_zeta.cross(u) + zeta.cross(du), d_moment.cross(u) + moment.cross(du) + load)
+        let u = self.strain(s, moment);
+        let (soft, weight) = (self.stiffness.recip(), self.weight * (1.0 - s));
+        move |by| {
+            let (d_zeta, d_moment) = halves(by);
+            let du = d_moment * soft;
+            let load = DVec3::Z.cross(d_zeta) * weight;
+            joined(d_zeta.cross(u) + zeta.cross(du), d_moment.cross(u) + moment.cross(du) + load)
+        }
     }
 
     /// The solution of `y' = f(s, y)` that starts from `y` at `from`, in equal steps between the knots of the natural strain,

@@ -46,8 +46,9 @@ fn looked(
     let f = |s: f64, y: &[f64; 18]| {
         let mut slope = [0.0; 18];
         slope[..6].copy_from_slice(&rod.slope(s, y));
+        let change = rod.linearised(s, y);
         for k in 1..3 {
-            slope[6 * k..6 * k + 6].copy_from_slice(&rod.change(s, y, &y[6 * k..]));
+            slope[6 * k..6 * k + 6].copy_from_slice(&change(&y[6 * k..]));
         }
         slope
     };

@@ -15,8 +15,9 @@ impl Hanging {
         let f = |s: f64, y: &[f64; 42]| {
             let mut slope = [0.0; 42];
             slope[..6].copy_from_slice(&self.slope(s, y));
+            let change = self.linearised(s, y);
             for k in 1..7 {
-                let column = self.change(s, y, &y[6 * k..]);
+                let column = change(&y[6 * k..]);
                 slope[6 * k..6 * k + 6].copy_from_slice(&column);
             }
             slope
