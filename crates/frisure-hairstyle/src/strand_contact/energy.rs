@@ -137,6 +137,7 @@ impl<'a> Head<'a> {
                 sum += force * beyond / 3.0;
                 forces[k] = away * (force / distance);
             }
+            // Within a ball that was found free of contact nothing is looked up; its radius is negative where there is none.
             if p.distance_squared(clear[k].0) < clear[k].1 * clear[k].1.abs() {
                 continue;
             }
@@ -153,10 +154,12 @@ impl<'a> Head<'a> {
 
     /// Computes energy and gradient of a shape from its turns.
     pub(super) fn evaluate(&self, interaction: &mut dyn Interaction, state: &mut State) {
+        // 1. Points from turns, with weight, elasticity and contact with all but hairs; 2. forces of other hairs by points.
         self.place(state);
         let layout = &self.layout;
         state.energy += interaction.add_forces(&state.points, &mut state.forces);
         let State { controls, points, frames, forces, gradient, .. } = state;
+        // 3. The derivative by turns: moments of all forces beyond a joint, from the tip to the root of each hair.
         parallel::for_each_mut(&mut layout.by_joint(gradient), |index, gradient| {
             let mut joint = 0;
             for strand in layout.chunks()[index].clone() {
@@ -191,6 +194,7 @@ impl<'a> Head<'a> {
             let distance = away.length();
             let beyond = distance - tube.radius;
             if beyond > 0.0 {
+                // Of k e³/6ρ: k e/ρ along the way out, and the force over the distance, k e²/2ρd, at right angles to it.
                 let stiffness = tube.stiffness * beyond / tube.radius * share;
                 let across = 0.5 * stiffness * beyond / distance;
                 sum[k] += Symmetric::square(away / distance, stiffness - across);

@@ -156,16 +156,19 @@ impl LinearModel {
         });
         self.motion.fill(DVec3::ZERO);
         let (mut first, mut before, mut step) = (0.0, f64::INFINITY, None);
+        // Preconditioned conjugate gradients, [Nocedal & Wright] algorithm 5.3; r is the residual −g − H x.
         for iteration in 0..=rule.most {
+            // 1. x and r along the direction of before; z = M⁻¹ r, and r·z.
             let product = self.residual(head, step);
             first = if iteration == 0 { product } else { first };
             let small = product <= rule.reduction * rule.reduction * first;
             if iteration == rule.most || (iteration >= rule.least && small) {
                 return;
             }
-            // Zero after the first, and where hairs were taken out.
+            // 2. p = z + β p with β = (r·z)/(r·z of before): zero after the first, and where hairs were taken out.
             let beta = product / before;
             before = product;
+            // 3. The step to the minimum along p is (r·z)/(pᵀ H p), if the energy curves upwards there.
             let curvature = self.turn(head, interaction, beta);
             step = if curvature > 0.0 {
                 Some(product / curvature)
@@ -220,6 +223,7 @@ impl LinearModel {
                 joint += n;
                 let products = part.direction[of.clone()].iter().zip(&part.image[of]);
                 let mut curvature: f64 = products.map(|(p, q)| p.dot(*q)).sum();
+                // (p_i)ᵀ (H p)_i, and ∫ |u|² ds for the stiffness per length that makes up for it.
                 let mut square = 0.0;
                 for (k, at) in layout.points(strand).enumerate() {
                     let u = motion[at];
@@ -302,6 +306,7 @@ impl Part {
         for (r, image) in self.residual.iter_mut().zip(&self.image) {
             *r -= *image * step;
         }
+        // H p = M p + Jᵀ (K − D) J p: the second part goes from points to joints along each hair.
         let (mut joint, mut point) = (0, 0);
         for strand in self.strands.clone() {
             let n = head.layout.joints(strand).len();
@@ -342,6 +347,7 @@ impl Part {
             .zip(&self.residual)
         {
             *p = *z + *p * beta;
+            // M p = M z + β M p of before, and M z = r.
             *image = *r + *image * beta;
             curvature += p.dot(*image);
         }

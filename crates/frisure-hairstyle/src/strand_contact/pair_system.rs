@@ -71,6 +71,7 @@ impl Turning {
     #[inline]
     fn product(&self, apart: DVec3, turned: DVec3, force: &mut DVec3) -> (DVec3, f64) {
         let Self { across, normal: n, along, lever, .. } = *self;
+        // u·τ + (d/ℓ) n·Δ: by how much the nearest place slides along the line.
         let slide = apart.dot(along) + lever * n.dot(turned);
         let by = apart - n * n.dot(apart) - along * slide;
         *force -= by * across;
@@ -158,6 +159,7 @@ impl Springs {
                         springs.push(Spring { point: pair.point, place, stiffness, turning });
                     }
                 };
+                // What presses acts at the nearest place of the line, friction at the place where the point stuck: one spring where both are the same.
                 let stuck = pair.stuck_to();
                 if stuck == nearest.place {
                     let mut both = normal;
@@ -227,9 +229,11 @@ impl Springs {
         let costs = parallel::map_mut(&mut pieces, |index, forces| {
             let mut cost = 0.0;
             for (force, spring) in forces.iter_mut().zip(&springs[starts[index]..]) {
+                // u = J p of the point less that of the place, then K u and uᵀ K u.
                 let apart = motion[spring.point as usize] - spring.place.of(motion);
                 let mut on = spring.stiffness * apart;
                 cost += on.dot(apart);
+                // What the turning normal takes away of it.
                 let slopes = Place { weights: spring.turning.slopes, ..spring.place };
                 let turned = slopes.of(motion);
                 let (end, more) = spring.turning.product(apart, turned, &mut on);
@@ -238,6 +242,7 @@ impl Springs {
             }
             cost
         });
+        // Forces on the points of each chunk, and their opposites on its places, each summed in the order of springs, whatever the threads.
         parallel::for_each_mut(&mut layout.by_point(sum), |index, sum| {
             let first = layout.points(layout.chunks()[index].start).start;
             sum.fill(DVec3::ZERO);

@@ -34,6 +34,7 @@ pub(crate) struct Arrival {
 impl Density {
     /// A guide leaves where it is.
     pub(crate) fn departure(&self, guide: usize) -> Departure {
+        // φ_l without the terms V_k W_kl of the guide's points k, (D1).
         let near = NearPoints::of(self, guide);
         let mut changes = vec![0.0; near.count];
         for k in self.of_guide(guide) {
@@ -47,6 +48,7 @@ impl Density {
 
     /// A guide that has left arrives at other places (m), which are within the margin of the last search.
     pub(crate) fn arrival(&self, from: &Departure, positions: &[DVec3]) -> Arrival {
+        // 1. φ_k of the guide's points from those of others, and V_k W_kl at these, (D1). The first term of φ_k, of its own hairs, does not move.
         let mut changes = from.changes.clone();
         let at = |(k, &position): (usize, &DVec3)| {
             let own = Site { position, ..self.points.sites[k] };
@@ -59,6 +61,7 @@ impl Density {
             dense
         };
         let dense = (self.starts[from.guide]..).zip(positions).map(at).collect();
+        // 2. What the others pay, (D2): only where the guide was or will be, as W has a radius.
         let mut growth = 0.0;
         for (l, &change) in self.near_points(from.guide).zip(&changes) {
             if change != 0.0 {
@@ -126,6 +129,7 @@ impl Field for Arrived<'_> {
     fn energy(&self, s: f64, _: DVec3) -> f64 {
         let k = self.density.point_at(self.guide, s);
         let dense = self.dense[k - self.density.starts[self.guide]];
+        // (D2) is an energy of a point; a field's is per length of hair.
         self.density.energy_at(k, dense) / self.density.points.length[k]
     }
 

@@ -42,6 +42,7 @@ pub(super) fn far_from_rest(
     preconditioner: &Preconditioner<'_>,
     gradient: &Controls,
 ) -> Vec<usize> {
+    // Newton's step of each guide while the others hold still, but for its sign: M⁻¹ g.
     let steps = preconditioner.solve(gradient);
     let is_far = parallel::map(steps.len(), |i| {
         let relative = state.relative_of(i, &gradient[i]);
@@ -63,11 +64,13 @@ pub(super) fn eliminate(state: &mut HeadState<'_>, guides: &[usize], count: usiz
     }
     let mut left = guides.to_vec();
     for _ in 0..MOST_SEARCHES {
+        // 1. Neighbours within the room of those that are left: until it is used up, who may feel whom is known.
         state.make_room(&lengths);
         let groups = state.groups_apart(&left);
         let mut active = vec![false; count];
         left.iter().for_each(|&guide| active[guide] = true);
         let mut moved = vec![false; count];
+        // 2. Steps of each (block Gauss–Seidel) until all are near rest or have no room left.
         for _ in 0..MOST_STEPS {
             for group in &groups {
                 let group: Vec<usize> = group.iter().copied().filter(|&i| active[i]).collect();
@@ -86,6 +89,7 @@ pub(super) fn eliminate(state: &mut HeadState<'_>, guides: &[usize], count: usiz
                 break;
             }
         }
+        // 3. What has not moved is near rest or stays: a new search would not help it.
         left.retain(|&guide| moved[guide]);
         if left.is_empty() {
             break;
@@ -155,6 +159,7 @@ fn short_step(variation: &mut SecondVariation, firmness: f64) -> Option<Vec<DVec
     let right: Vec<DVec3> = variation.gradient().iter().map(|g| -*g).collect();
     let (mut tether, mut damping) = (FIRST_TETHER * firmness, 0.0);
     for _ in 0..MOST_TETHERS {
+        // 1. H + c Jᵀ J + σ K/h has to be positive definite: with the tether c, then with the damping σ.
         let Some(factor) = variation.factor(damping) else {
             damping = FIRST_DAMPING.max(damping * DAMPING_GROWTH);
             if damping > LARGEST_DAMPING {
@@ -162,6 +167,7 @@ fn short_step(variation: &mut SecondVariation, firmness: f64) -> Option<Vec<DVec
             }
             continue;
         };
+        // 2. A firmer tether until the step is short enough: a trust region by the points' distances, as Levenberg and Marquardt's.
         let step = factor.solve(&right);
         if variation.displacements(&step).iter().all(|moved| moved.length() <= FARTHEST) {
             return Some(step);

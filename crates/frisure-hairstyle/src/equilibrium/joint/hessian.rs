@@ -39,6 +39,7 @@ impl Coupling {
         };
         parallel::map(contacts.len(), |i| {
             let mut forces = vec![DVec3::ZERO; moved[i].len()];
+            // −Σ_l K_kl (J_j x_j)_l: K_kl of the guide's own motion is in H_i. (H1)
             for contact in &contacts[i] {
                 let (other, point) = contact.other;
                 let displacement = moved[other as usize][point as usize];
@@ -64,9 +65,12 @@ impl JointHessian {
     /// H x for a step x (rad), and by how much the step moves the points of guides. (H1)
     pub(super) fn apply(&self, step: &Controls) -> Product {
         let (guides, count) = (&self.guides, self.guides.len());
+        // 1. J_i x_i, by how much the points of each guide move …
         let changes = parallel::map(count, |i| guides[i].node_changes(&step[i]));
         let moved = parallel::map(count, |i| guides[i].displacements_with(&step[i], &changes[i]));
+        // 2. … the forces that this makes on the points of the others …
         let forces = self.forces(&moved);
+        // 3. … and H_i x_i with J_iᵀ of these forces, in one sweep from the tip of each guide to its root. docs/theory.md, "Product"
         let moments =
             parallel::map(count, |i| guides[i].apply_with(&step[i], &changes[i], &forces[i]));
         Product { moments, moved }
@@ -100,6 +104,7 @@ impl<'a> Preconditioner<'a> {
     /// `None` if a guide's numbers are so large that no damping makes them positive definite.
     pub(super) fn new(hessian: &'a JointHessian) -> Option<Self> {
         let factor = |guide: &'a SecondVariation| {
+            // σ_i grows until every pivot of the block factorisation is positive definite: then M is, as conjugate gradients need.
             let mut damping = 0.0;
             loop {
                 match guide.factor(damping) {
