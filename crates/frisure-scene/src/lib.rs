@@ -59,5 +59,5 @@ pub use placement::Placement;
 pub use scene::*;
 pub use schema::{options, schema};
 pub use step::{buttons, parse_step};
-pub use template::template;
+pub use template::{template, worn_template};
 pub use write::{WriteStepError, write_selection, write_step};

@@ -21,10 +21,10 @@ pub struct NaturalLook {
     pub skin: [f64; 3],
     /// The built-in head of a scene that begins with the type ([`template`](crate::template)); without `head.model` it is the mannequin.
     pub model: &'static str,
-    /// Whether a scene that begins with the type is cut to a soft line at the shoulders: hair of one length that hangs ends in a
+    /// Whether the hair is worn cut ([`worn_template`](crate::worn_template)) to a soft line at the shoulders: hair of one length that hangs ends in a
     /// point at the back, as nobody wears it. Short coils stand.
     pub cut: bool,
-    /// Whether its hair is held better than usual out of the face ([`hold`](frisure_hairstyle::Implantation::hold)): curls that hang fall into it.
+    /// Whether it is held there better than usual out of the face ([`hold`](frisure_hairstyle::Implantation::hold)): curls that hang fall into it.
     pub pinned: bool,
 }
 

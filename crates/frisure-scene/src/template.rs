@@ -8,6 +8,27 @@ use crate::natural_look::NaturalLook;
 /// keys that would change them.
 #[must_use]
 pub fn template(preset: &Preset) -> String {
+    written(preset, "", "")
+}
+
+/// The same as people wear hair of the type: cut, and out of the face ([`NaturalLook`]).
+#[must_use]
+pub fn worn_template(preset: &Preset) -> String {
+    let NaturalLook { cut, pinned, .. } = NaturalLook::of(preset);
+    written(preset, if pinned { HOLD } else { "" }, if cut { CUT } else { "" })
+}
+
+/// How combed hair is held.
+const HOLD: &str = "hold = 2.0                        # pinned out of the face while it dried\n";
+
+/// The haircut.
+const CUT: &str = r#"[[step]]                          # to a soft line: hair of one length ends in a point
+cut = { below = "shoulders", resting = true, point_cut = "15 mm" }
+
+"#;
+
+/// A scene with these lines about how combed hair is held, and this haircut.
+fn written(preset: &Preset, hold: &str, cut: &str) -> String {
     let spec = preset.spec();
     let (section, wisps) = (spec.fibre.section, spec.wisps);
     let (radius, pitch) = spec.curl.radius_pitch().unwrap_or((0.0, 0.0));
@@ -81,8 +102,6 @@ type = "{name}"  # {description}
         fuzziness = wisps.fuzziness,
         head = head_line(preset),
         look = look_lines(preset),
-        hold = hold_line(preset),
-        cut = cut_lines(preset),
     )
 }
 
@@ -90,28 +109,6 @@ type = "{name}"  # {description}
 fn head_line(preset: &Preset) -> String {
     let model = format!("model = \"{}\"", NaturalLook::of(preset).model);
     format!("{model:<34}# or \"mannequin\", ...: `frisure presets`; or mesh = \"head.obj\"")
-}
-
-/// How combed hair is held, if better than usual.
-fn hold_line(preset: &Preset) -> &'static str {
-    if NaturalLook::of(preset).pinned {
-        "hold = 2.0                        # pinned out of the face while it dried\n"
-    } else {
-        ""
-    }
-}
-
-/// The haircut.
-fn cut_lines(preset: &Preset) -> &'static str {
-    match NaturalLook::of(preset).cut {
-        true => {
-            r#"[[step]]                          # to a soft line: hair of one length ends in a point
-cut = { below = "shoulders", resting = true, point_cut = "15 mm" }
-
-"#
-        }
-        false => "",
-    }
 }
 
 /// The keys of colours, commented out, with those of the type.

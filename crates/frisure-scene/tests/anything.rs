@@ -256,7 +256,7 @@ proptest! {
 fn what_mistakes_are_made_in_is_a_scene() {
     let text = whole_scene();
     let scene = Scene::parse("whole", text.as_str(), Path::new("")).unwrap();
-    assert_eq!(scene.steps().len(), 4);
+    assert_eq!(scene.steps().len(), 3);
     edit_steps(&text, scene.steps());
 }
 

@@ -14,7 +14,7 @@ use frisure_look::{
     linear_from_srgb,
 };
 use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
-use frisure_scene::{HeadSource, NaturalLook, ScalpSource, Scene, schema, template};
+use frisure_scene::{HeadSource, NaturalLook, ScalpSource, Scene, schema, template, worn_template};
 use glam::{DVec3, Vec3};
 use serde_json::Value;
 
@@ -71,12 +71,13 @@ fn every_template_is_its_preset_and_so_it_is_uncommented() {
         let text = template(preset);
         // It begins on a person, who has a hairline of her own.
         let mut expected = preset.spec();
-        let natural = NaturalLook::of(preset);
-        expected.implantation.hairline = Hairline::usual(natural.model);
-        if natural.pinned {
-            expected.implantation.hold = 2.0;
-        }
+        expected.implantation.hairline = Hairline::usual(NaturalLook::of(preset).model);
         assert_eq!(good(&text).hairstyle_spec().unwrap(), expected, "{text}");
+        // As it is worn, it is held out of the face and cut.
+        let (natural, worn) = (NaturalLook::of(preset), good(&worn_template(preset)));
+        let hold = if natural.pinned { 2.0 } else { expected.implantation.hold };
+        assert_eq!(worn.hairstyle_spec().unwrap().implantation.hold, hold);
+        assert_eq!(worn.steps().len(), usize::from(natural.cut));
         // With the numbers in its comments, which are rounded.
         let loud = text.replace("\n# ", "\n").replacen("A scene for", "# A scene for", 1);
         let loud = loud.replacen("Quantities are", "# Quantities are", 1);

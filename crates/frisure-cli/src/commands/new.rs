@@ -1,6 +1,6 @@
 //! `frisure new`: a scene to start from.
 
-use frisure::scene::template;
+use frisure::scene::worn_template;
 use frisure_engine::Error;
 
 use crate::args::New;
@@ -9,6 +9,6 @@ use crate::diagnostics::ExitStatus;
 
 /// Prints a commented scene of a hair type.
 pub(crate) fn run(arguments: &New) -> Result<ExitStatus, Error> {
-    console::print(&template(arguments.hair_type))?;
+    console::print(&worn_template(arguments.hair_type))?;
     Ok(ExitStatus::Success)
 }
