@@ -29,7 +29,7 @@ pub(super) fn integrate<const N: usize>(
     y
 }
 
-/// Slopes at the stages of the next step, on the parabola through those of this one: two thirds of the iterations from equal ones.
+/// Slopes at the stages of the next step, on the parabola through those of this one: a start nearer than equal ones.
 fn extrapolated<const N: usize>(slopes: &[[f64; N]; 3]) -> [[f64; N]; 3] {
     // Lagrange's polynomials of the stages.
     let share = |i: usize, at: f64| -> f64 {
