@@ -73,6 +73,7 @@ pub(crate) fn head_data(head: &Head, note: Option<String>) -> HeadData {
             .map(|(name, level)| (name.to_owned(), Height::Above(level, 0.0).on(head)))
             .collect(),
         hairs: features.map(|features| plain(&features.hairs)).unwrap_or_default(),
+        lashes: features.map_or(0, |features| features.lashes),
         note: note.unwrap_or_default(),
     }
 }

@@ -158,8 +158,10 @@ pub struct HeadData {
     pub tints: Vec<f32>,
     /// Eyes: centre (m), radius (m) and unit direction of the gaze.
     pub eyes: Vec<[f64; 7]>,
-    /// Brows and lashes.
+    /// Brows, followed by lashes.
     pub hairs: StrandsData,
+    /// How many of them are lashes.
+    pub lashes: usize,
     /// Levels that cuts are named by, and their heights (m).
     pub levels: Vec<(String, f64)>,
     /// What was guessed of it, for a person; may be empty.

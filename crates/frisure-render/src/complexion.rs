@@ -47,8 +47,8 @@ const CORNER: Vec3 = Vec3::new(0.38, 0.25, 0.22);
 const IRIS: f32 = 0.44;
 
 /// Heights above the gaze, in radii of the ball, from which on the upper lid darkens it, and where it does so most; and by how much. Chosen by eye.
-const UNDER_LID: [f32; 2] = [0.10, 0.40];
-const LID_SHADE: f32 = 0.6;
+const UNDER_LID: [f32; 2] = [-0.05, 0.28];
+const LID_SHADE: f32 = 0.7;
 
 /// Radius of the ball over that of the cornea: 12 over 7.8 mm.
 const CORNEA: f32 = 1.54;
@@ -211,7 +211,7 @@ fn eyeball(eye: &Eye, p: DVec3, look: &SkinLook) -> Material {
     let coarse = noise(Vec3::new(5.0 * cos, 5.0 * sin, 5.0 * sine), 71).0;
     let collarette = 1.0 - ((sine - 0.23) / 0.05).abs().min(1.0);
     let warm = Vec3::new(1.35, 1.05, 0.75);
-    let iris = look.iris * (1.0 + 0.9 * fine + 0.5 * coarse + 0.35 * collarette).max(0.15);
+    let iris = look.iris * (0.65 + 0.6 * fine + 0.35 * coarse + 0.25 * collarette).max(0.1);
     let iris =
         iris * Vec3::ONE.lerp(warm, 1.0 - smooth(0.17, 0.30)) * (1.0 - 0.3 * smooth(0.15, 0.40));
     let iris = iris.lerp(look.iris * 0.10, smooth(0.33, IRIS));

@@ -5,7 +5,7 @@ use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 use crate::hash::mix;
-use crate::scene::PIGMENT;
+use crate::scene::{LASH_PIGMENT, PIGMENT};
 
 /// Relative deviation of the pigment from wisp to wisp, over that from strand to strand; chosen by eye.
 const WISP_PART: f32 = 0.6;
@@ -47,14 +47,17 @@ impl Pigments {
             _ => varied(strands, look),
         };
         let more = match values(strands, PIGMENT) {
-            Some(AttributeValues::F32(all)) => all.iter().map(|&all| bounded(all) - 1.0).collect(),
+            Some(AttributeValues::F32(all)) => all.iter().map(|&all| all - 1.0).collect(),
             _ => Vec::new(),
         };
+        // Lashes seldom turn grey.
         if look.white_share > 0.0 {
             let guides = guides(strands);
             let threshold = normal_quantile(look.white_share);
             for (strand, factor) in factors.iter_mut().enumerate() {
-                if whiteness(strand as u32, guides.map(|g| g[strand]), look.seed) < threshold {
+                let lash = more.get(strand) == Some(&(LASH_PIGMENT - 1.0));
+                let white = whiteness(strand as u32, guides.map(|g| g[strand]), look.seed);
+                if white < threshold && !lash {
                     *factor = 0.0;
                 }
             }

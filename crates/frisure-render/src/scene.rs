@@ -32,8 +32,9 @@ pub struct Scene<'a> {
 /// Attribute of strands: a factor on their pigment beside `tint`.
 pub(crate) const PIGMENT: &str = "frisure:pigment";
 
-/// Pigment of brows and lashes over that of hair: those of fair people are a shade or two darker than their hair. Chosen by eye.
-const FACIAL_PIGMENT: f32 = 4.0;
+/// Pigment of brows and of lashes over that of hair: those of fair people are darker than their hair, lashes most. Chosen by eye.
+const BROW_PIGMENT: f32 = 4.0;
+pub(crate) const LASH_PIGMENT: f32 = 16.0;
 
 impl<'a> Scene<'a> {
     /// The scene in the default look, framed from the three-quarter front view of a portrait for a
@@ -79,7 +80,8 @@ pub fn all_hair<'a>(strands: &'a Strands, surface: Option<&Surface>) -> Cow<'a, 
     };
     let mut all = strands.followed_by(&features.hairs).with_attributes(|name| name != PIGMENT);
     let mut factors = vec![1.0; strands.len()];
-    factors.resize(all.len(), FACIAL_PIGMENT);
+    factors.resize(all.len() - features.lashes.min(features.hairs.len()), BROW_PIGMENT);
+    factors.resize(all.len(), LASH_PIGMENT);
     let values = AttributeValues::F32(factors);
     all.set_attribute(Attribute { name: PIGMENT.into(), domain: Domain::Strand, values })
         .expect("one value for each strand, of a name that is free");

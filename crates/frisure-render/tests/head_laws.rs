@@ -134,7 +134,7 @@ fn an_eye_has_an_iris_in_both_pictures() {
     faces.extend(triangles.iter().map(|t| t.map(|v| v + first)));
     let eye = Eye { centre, radius: 0.012, gaze: -DVec3::Y };
     let tints = vec![Tint::default(); positions.len()];
-    let features = Features { tints, eyes: vec![eye], hairs: Strands::new() };
+    let features = Features { tints, eyes: vec![eye], ..Features::default() };
     let surface = Surface::new(positions, faces).unwrap().with_features(features).unwrap();
     let hair = hidden_hair();
     let look = SkinLook { iris: Vec3::new(0.02, 0.05, 0.4), ..SkinLook::default() };

@@ -35,8 +35,10 @@ pub struct Features {
     pub tints: Vec<Tint>,
     /// The eyes; their balls are part of the mesh.
     pub eyes: Vec<Eye>,
-    /// Brows and lashes (m).
+    /// Brows, followed by lashes (m).
     pub hairs: Strands,
+    /// How many of the hairs are lashes.
+    pub lashes: usize,
 }
 
 impl Features {

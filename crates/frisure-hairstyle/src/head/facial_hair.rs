@@ -4,7 +4,7 @@
 //! lid 90 to 150 lashes of 8 to 12 mm, a lower lid 70 to 80 of 6 to 8 mm (Thibaut et al. 2010,
 //! doi:10.1111/j.1365-2133.2009.09505.x).
 
-use frisure_strands::Strands;
+use frisure_strands::{Features, Strands};
 use glam::{DVec3, Vec3};
 
 use super::distance::SignedDistance;
@@ -31,18 +31,24 @@ const POINTS: usize = 6;
 /// Hairs of a brow, lashes of an upper and of a lower lid.
 const COUNTS: [usize; 3] = [480, 150, 70];
 
+/// Lashes that grow anew, short ones, over the others: what makes the edge of an upper lid dark.
+const SHORT_LASHES: usize = 110;
+
+/// Width of the edge of a lid that lashes grow on (m): they stand in up to six rows.
+const LID_EDGE: f64 = 1.0e-3;
+
 /// Half the height of a brow at its inner and its outer end (m).
 const BROW: [f64; 2] = [4.8e-3, 2.2e-3];
 
 /// Radius at the root of hairs of the brow and of lashes (m).
 const RADII: [f32; 2] = [3.4e-5, 4.5e-5];
 
-/// The hairs of both halves of a face; the skin's distance keeps brows on it.
-pub(super) fn grow(lines: &FacialLines, skin: &SignedDistance) -> Strands {
-    let mut strands = Strands::new();
+/// The features with the hairs of both halves of a face; the skin's distance keeps brows on it.
+pub(super) fn grown(features: Features, lines: &FacialLines, skin: &SignedDistance) -> Features {
+    let [mut brows, mut lashes] = [(); 2].map(|()| Strands::new());
     for (side, mirrored) in [false, true].into_iter().enumerate() {
         let mut random = Stream::new(0, Purpose::Face, side);
-        let mut push = |points: [DVec3; POINTS], radius: f32| {
+        let push = |strands: &mut Strands, points: [DVec3; POINTS], radius: f32| {
             let place = |p: DVec3| {
                 let x = if mirrored { 2.0 * lines.middle - p.x } else { p.x };
                 DVec3::new(x, p.y, p.z).as_vec3()
@@ -53,19 +59,22 @@ pub(super) fn grow(lines: &FacialLines, skin: &SignedDistance) -> Strands {
             });
             strands.push(&points, &taper);
         };
-        let [brows, upper, lower] = COUNTS;
-        for _ in 0..brows {
-            push(brow_hair(lines, skin, &mut random), RADII[0]);
+        let [brow, upper, lower] = COUNTS;
+        for _ in 0..brow {
+            push(&mut brows, brow_hair(lines, skin, &mut random), RADII[0]);
         }
-        for _ in 0..upper {
-            push(lash((&lines.upper, lines.eye, 1.0), skin, &mut random), RADII[1]);
+        for n in 0..upper + SHORT_LASHES {
+            let part = if n < upper { 1.0 } else { 0.2 + 0.3 * random.unit() };
+            let line = Lid { line: &lines.upper, eye: lines.eye, up: 1.0, length: 9.5e-3 * part };
+            push(&mut lashes, lash(&line, skin, &mut random), RADII[1]);
         }
         // Closed lids have one edge.
         for _ in 0..if lines.lower.is_empty() { 0 } else { lower } {
-            push(lash((&lines.lower, lines.eye, -1.0), skin, &mut random), 0.75 * RADII[1]);
+            let line = Lid { line: &lines.lower, eye: lines.eye, up: -1.0, length: 5.5e-3 };
+            push(&mut lashes, lash(&line, skin, &mut random), 0.75 * RADII[1]);
         }
     }
-    strands
+    Features { hairs: brows.followed_by(&lashes), lashes: lashes.len(), ..features }
 }
 
 /// A hair of the brow: it leaves upwards at the nose and along the brow farther out, and lies on the skin.
@@ -98,17 +107,25 @@ fn brow_hair(lines: &FacialLines, skin: &SignedDistance, random: &mut Stream) ->
     })
 }
 
-/// A lash on the edge of a lid, by its line, the eye's centre, and up (1) or down (−1): outwards from the eye, bent up or down.
-fn lash(
-    (line, eye, up): (&[DVec3], DVec3, f64),
-    skin: &SignedDistance,
-    random: &mut Stream,
-) -> [DVec3; POINTS] {
+/// A lid with lashes.
+struct Lid<'a> {
+    /// Its edge (m).
+    line: &'a [DVec3],
+    /// Centre of the eye (m).
+    eye: DVec3,
+    /// Its lashes bend up (1) or down (−1).
+    up: f64,
+    /// Length of its longest lashes (m).
+    length: f64,
+}
+
+/// A lash on the edge of a lid: outwards from the eye, bent up or down.
+fn lash(lid: &Lid<'_>, skin: &SignedDistance, random: &mut Stream) -> [DVec3; POINTS] {
+    let Lid { line, eye, up, length } = *lid;
     let t = random.unit();
-    let (root, _) = on_line(line, t);
-    let usual = if up > 0.0 { 9.5e-3 } else { 5.5e-3 };
+    let root = on_line(line, t).0 + DVec3::Z * (up * LID_EDGE * (random.unit() - 0.2));
     // Shorter at both ends, longest beyond the middle.
-    let length = usual * (0.5 + 0.5 * (std::f64::consts::PI * t.powf(0.8)).sin());
+    let length = length * (0.5 + 0.5 * (std::f64::consts::PI * t.powf(0.8)).sin());
     let length = length * (0.8 + 0.3 * random.unit());
     let out = (root - eye).normalize_or(-DVec3::Y);
     let fan = DVec3::X * (0.9 * (t - 0.4) + 0.10 * random.normal());

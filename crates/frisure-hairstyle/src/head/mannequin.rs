@@ -71,11 +71,8 @@ pub(crate) fn features(surface: &Surface, skin: &SignedDistance) -> Features {
         eye: dvec3(0.032, -0.0685, -0.0105),
         middle: 0.0,
     };
-    Features {
-        tints: tints(surface.positions()),
-        eyes: Vec::new(),
-        hairs: facial_hair::grow(&lines, skin),
-    }
+    let bare = Features { tints: tints(surface.positions()), ..Features::default() };
+    facial_hair::grown(bare, &lines, skin)
 }
 
 /// The tints of places (m).

@@ -82,7 +82,7 @@ impl Person {
 
     /// The features, brows and lashes among them.
     pub(super) fn features(self, skin: &SignedDistance) -> Features {
-        Features { hairs: facial_hair::grow(&self.lines, skin), ..self.features }
+        facial_hair::grown(self.features, &self.lines, skin)
     }
 }
 
@@ -239,7 +239,7 @@ mod tests {
             assert!(distance(0.0, 0.02, -0.3) < -0.04 && distance(0.0, 0.0, 0.0) < -0.05, "{name}");
             assert!(distance(0.0, -0.25, 0.0) > 0.05, "{name}");
             let features = surface.features().unwrap();
-            assert_eq!(features.hairs.len(), 2 * 700, "{name}");
+            assert_eq!(features.hairs.len(), 2 * 810, "{name}");
             for strand in features.hairs.iter() {
                 let [root, tip] = [strand.points[0], strand.points[strand.points.len() - 1]]
                     .map(|p| head.signed_distance().value(p.as_dvec3()));

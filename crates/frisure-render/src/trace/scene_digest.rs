@@ -22,6 +22,7 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
             let eyes = features.eyes.iter().flat_map(eye).flatten();
             digest.packed("eyes", eyes.map(f64::to_le_bytes));
             add_strands(&mut digest, &features.hairs);
+            digest.field("lashes", &features.lashes);
         }
     }
     for AccessoryMesh { name: _, material, surface } in *accessories {

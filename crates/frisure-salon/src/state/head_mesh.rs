@@ -35,10 +35,10 @@ impl HeadMesh {
         if tints.is_empty() && eyes.is_empty() && head.hairs.offsets.is_empty() {
             return Self { surface, levels };
         }
-        let hairs = strands_of(&head.hairs);
+        let (hairs, lashes) = (strands_of(&head.hairs), head.lashes);
         // Tints that do not fit the mesh are left out with the rest.
         let with = |surface: Surface| {
-            let features = Features { tints, eyes, hairs };
+            let features = Features { tints, eyes, hairs, lashes };
             surface.clone().with_features(features).unwrap_or(surface)
         };
         Self { surface: surface.map(with), levels }
