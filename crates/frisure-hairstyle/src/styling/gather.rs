@@ -17,7 +17,7 @@ use crate::parallel;
 pub(super) const PACKING: f64 = 0.7;
 
 /// Hair that is longer than the tight way to the bundle by this share lies on the head without being stretched. Chosen.
-const SLACK: f64 = 0.015;
+const SLACK: f64 = 0.004;
 
 /// Height (m) at which gathered hair passes over the skin. Chosen.
 const LYING: f64 = 2e-3;

@@ -37,6 +37,8 @@ pub struct Tracer {
     options: TraceOptions,
     /// The wisp of each strand.
     wisps: Option<Vec<u32>>,
+    /// Strands with a smaller index are hair; others are brows and lashes.
+    hairs: usize,
     /// Digest of everything but camera and lights.
     scene_digest: Digest,
     /// Digest of everything.
@@ -72,6 +74,7 @@ impl Tracer {
             background: scene.look.background,
             options: *options,
             wisps: wisps(&hair),
+            hairs: scene.strands.len(),
             scene_digest: scene_digest(scene, options),
             digest: 0,
         };
@@ -233,7 +236,9 @@ impl Tracer {
         pixel.normal += hit.normal;
         pixel.depth += hit.t * cosine;
         pixel.hits += 1.0;
-        if let Object::Hair { strand, tangent } = hit.object {
+        if let Object::Hair { strand, tangent } = hit.object
+            && (strand as usize) < self.hairs
+        {
             pixel.tangent += tangent;
             pixel.hair += 1.0;
             let wisp = self.wisps.as_ref().map_or(strand, |wisps| wisps[strand as usize]);

@@ -96,6 +96,8 @@ const SCLERA: vec3<f32> = vec3<f32>(0.40, 0.365, 0.34);
 const CORNER: vec3<f32> = vec3<f32>(0.38, 0.25, 0.22);
 const IRIS: f32 = 0.44;
 const PUPIL: f32 = 0.15;
+const UNDER_LID: vec2<f32> = vec2<f32>(-0.05, 0.28);
+const LID_SHADE: f32 = 0.7;
 // Gloss of a wet eye, Blinn-Phong: its mirror image of a lamp is a small bright spot. Chosen by eye.
 const WET_EYE: vec2<f32> = vec2<f32>(6.0, 900.0);
 
@@ -107,11 +109,12 @@ fn eyeball(eye: Eye, out: vec3<f32>) -> Cover {
     fibres += sin(11.0 * turn + 0.3 + 5.0 * sine) + sin(23.0 * turn + 1.7 + 5.0 * sine);
     fibres += sin(37.0 * turn + 4.1 + 5.0 * sine) + sin(58.0 * turn + 2.2 + 5.0 * sine);
     let own = picture.iris.rgb;
-    var iris = own * (1.15 + 0.16 * fibres) * (1.5 - 1.6 * sine);
+    var iris = own * (0.75 + 0.10 * fibres) * (1.5 - 1.6 * sine);
     iris = mix(iris, own * 0.12, smoothstep(0.36, IRIS, sine));
     let white = mix(SCLERA, CORNER, 0.7 * smoothstep(0.62, 0.95, sine));
     var colour = mix(vec3<f32>(0.006), iris, smoothstep(PUPIL - 0.015, PUPIL + 0.015, sine));
     colour = mix(colour, white, smoothstep(IRIS - 0.03, IRIS + 0.02, sine));
+    colour *= 1.0 - LID_SHADE * smoothstep(UNDER_LID.x, UNDER_LID.y, dot(out, eye.upright.xyz));
     return Cover(colour, 0.0, WET_EYE, out);
 }
 

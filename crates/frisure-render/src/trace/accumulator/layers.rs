@@ -15,7 +15,7 @@ pub struct Layers {
     pub tangent: Vec<[f32; 3]>,
     /// Distance along the view (m); [`Layers::NOWHERE`] where nothing is.
     pub depth: Vec<f32>,
-    /// Coverage by hair alone.
+    /// Coverage by hair alone: without brows and lashes, which are part of the head.
     pub hair: Vec<f32>,
     /// The wisp, or the strand where strands know no wisps, that covers most, counted from 1; 0 where
     /// there is no hair.
