@@ -42,6 +42,7 @@ level-plane = Level
     .help = Make the plane level
 cut-here = Cut here
     .help = Enter
+cut-nothing = No hair reaches below the line: raise it, or choose other hair.
 cut-preview = { $part } % of the hairs lose { $grams } g
 cut-held = Held
     .help = How the hair is held: as it hangs; trimmed until it rests at the line; or combed straight down, as in the paper

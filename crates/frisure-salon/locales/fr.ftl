@@ -41,6 +41,7 @@ level-plane = Horizontal
     .help = Mettre le plan à l'horizontale
 cut-here = Couper ici
     .help = Entrée
+cut-nothing = Aucun cheveu ne dépasse sous la ligne : remontez-la, ou choisissez d’autres cheveux.
 cut-preview = { $part } % des cheveux perdent { $grams } g
 cut-held = Tenue
     .help = Comment les cheveux sont tenus : tels qu'ils tombent ; recoupés jusqu'à ce qu'ils reposent à la ligne ; ou peignés droit vers le bas, comme dans l'article

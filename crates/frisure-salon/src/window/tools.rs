@@ -117,7 +117,9 @@ fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
             out.push(Command::Cut);
         }
     });
-    if let (Some(preview), Some((hair, _))) = (preview, salon.preview()) {
+    if preview.as_ref().is_some_and(|preview| preview.hairs == 0) {
+        ui.label(tr!("cut-nothing"));
+    } else if let (Some(preview), Some((hair, _))) = (preview, salon.preview()) {
         let grams = preview.share * hair.numbers.mass * 1e3;
         let part = preview.hairs as f64 / hair.numbers.drawn.max(1) as f64 * 100.0;
         let (part, grams) = (format!("{part:.0}"), format!("{grams:.1}"));
