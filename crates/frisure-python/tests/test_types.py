@@ -15,7 +15,8 @@ pytest.importorskip("mypy")
 
 
 def check(*arguments: str) -> None:
-    environment = {**os.environ, "MYPY_CACHE_DIR": os.devnull}
+    folder = str(Path(example.__file__).parent)
+    environment = {**os.environ, "MYPY_CACHE_DIR": os.devnull, "MYPYPATH": folder}
     command = [sys.executable, "-m", *arguments]
     ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert ran.returncode == 0, ran.stdout + ran.stderr
@@ -26,8 +27,7 @@ def test_the_example_runs(tmp_path: Path) -> None:
 
 
 def test_the_example_and_the_package_have_strict_types() -> None:
-    check("mypy", "--strict", example.__file__)
-    check("mypy", "--strict", "-p", "frisure")
+    check("mypy", "--strict", "-p", "frisure", "-m", "example")
 
 
 def test_the_stubs_are_those_of_the_module() -> None:
