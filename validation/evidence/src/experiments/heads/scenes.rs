@@ -49,7 +49,8 @@ impl Hair {
         let mut all =
             vec![("output.width", width), ("output.height", height), ("output.samples", "2")];
         if effort == Effort::Quick {
-            all.extend([("wisps.count", "40"), ("wisps.hairs", "3000")]);
+            // Fewer wisps in more locks, or a head of large wisps would have fewer locks than hair has.
+            all.extend([("wisps.count", "40"), ("wisps.hairs", "3000"), ("wisps.splits", "8")]);
         }
         all.extend(changes);
         let all: Vec<(&str, Option<&str>)> = all.into_iter().map(|(k, v)| (k, Some(v))).collect();
