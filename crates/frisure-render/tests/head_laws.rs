@@ -2,7 +2,7 @@
 
 use frisure_look::{Background, Camera, Lights, Look, Melanin, SkinLook};
 use frisure_render::preview::{self, PreviewOptions};
-use frisure_render::trace::{TraceOptions, render};
+use frisure_render::trace::{TraceOptions, Tracer, render};
 use frisure_render::{Image, Scene};
 use frisure_strands::{AccessoryMaterial, AccessoryMesh, Eye, Features, Strands, Surface, Tint};
 use glam::{DVec3, Vec3};
@@ -102,16 +102,48 @@ fn preview(scene: &Scene<'_>) -> Image {
     preview::render(scene, &options, &()).unwrap()
 }
 
+/// The skin with two hundred hairs in front, of which some are lashes.
+fn hairy(surface: &Surface, lashes: usize) -> Surface {
+    let mut hairs = Strands::new();
+    for i in 0..200_u16 {
+        let x = -0.03 + 3e-4 * f32::from(i);
+        hairs.push(&[Vec3::new(x, -0.081, 0.0), Vec3::new(x, -0.081, 0.02)], &[1e-4; 2]);
+    }
+    let features = Features { hairs, lashes, ..Features::default() };
+    surface.clone().with_features(features).unwrap()
+}
+
+#[test]
+fn lashes_are_darker_than_brows_and_stay_dark_on_a_white_head() {
+    let (surface, hair) = (skin(), hidden_hair());
+    let light = |lashes: usize, white_share: f32| {
+        let surface = hairy(&surface, lashes);
+        let mut scene = scene(&hair, &surface, SkinLook::default());
+        (scene.look.hair.melanin, scene.look.hair.white_share) = (Melanin::BLOND, white_share);
+        mean(&traced(&scene, 48, 64)).y
+    };
+    assert!(light(200, 0.0) < 0.99 * light(0, 0.0));
+    assert!(light(200, 1.0) < 0.99 * light(0, 1.0));
+    assert!((light(200, 1.0) / light(200, 0.0) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn the_layer_of_hair_has_no_brows() {
+    let (surface, hair) = (skin(), hidden_hair());
+    let surface = hairy(&surface, 100);
+    let scene = scene(&hair, &surface, SkinLook::default());
+    let options = TraceOptions { width: 48, height: 48, samples: 4, ..TraceOptions::default() };
+    let tracer = Tracer::new(&scene, &options).unwrap();
+    let mut accumulator = tracer.accumulator();
+    tracer.accumulate(&mut accumulator, &()).unwrap();
+    let layers = accumulator.layers();
+    assert!(layers.hair.iter().all(|&hair| hair == 0.0) && layers.wisp.iter().all(|&w| w == 0));
+}
+
 #[test]
 fn brows_are_in_both_pictures_and_in_no_hair() {
     let (surface, hair) = (skin(), hidden_hair());
-    let mut brows = Strands::new();
-    for i in 0..200_u16 {
-        let x = -0.03 + 3e-4 * f32::from(i);
-        brows.push(&[Vec3::new(x, -0.081, 0.0), Vec3::new(x, -0.081, 0.02)], &[1e-4; 2]);
-    }
-    let features = Features { hairs: brows, ..Features::default() };
-    let with = surface.clone().with_features(features).unwrap();
+    let with = hairy(&surface, 0);
     let look = SkinLook { colour: Vec3::splat(0.8), ..SkinLook::default() };
     let dark = |surface: &Surface, draw: &dyn Fn(&Scene<'_>) -> Image| {
         let mut scene = scene(&hair, surface, look);
