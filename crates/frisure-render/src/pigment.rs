@@ -50,12 +50,12 @@ impl Pigments {
             Some(AttributeValues::F32(all)) => all.iter().map(|&all| all - 1.0).collect(),
             _ => Vec::new(),
         };
-        // Lashes seldom turn grey.
         if look.white_share > 0.0 {
             let guides = guides(strands);
             let threshold = normal_quantile(look.white_share);
             for (strand, factor) in factors.iter_mut().enumerate() {
-                let lash = more.get(strand) == Some(&(LASH_PIGMENT - 1.0));
+                // Lashes seldom turn grey.
+                let lash = more.get(strand).is_some_and(|more| more + 1.0 >= LASH_PIGMENT);
                 let white = whiteness(strand as u32, guides.map(|g| g[strand]), look.seed);
                 if white < threshold && !lash {
                     *factor = 0.0;

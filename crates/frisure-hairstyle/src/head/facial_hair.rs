@@ -31,10 +31,10 @@ const POINTS: usize = 6;
 /// Hairs of a brow, lashes of an upper and of a lower lid.
 const COUNTS: [usize; 3] = [480, 150, 70];
 
-/// Lashes that grow anew, short ones, over the others: what makes the edge of an upper lid dark.
+/// Short lashes of an upper lid beside the others: they make its edge dark.
 const SHORT_LASHES: usize = 110;
 
-/// Width of the edge of a lid that lashes grow on (m): they stand in up to six rows.
+/// Width of the edge of a lid that lashes grow on (m).
 const LID_EDGE: f64 = 1.0e-3;
 
 /// Half the height of a brow at its inner and its outer end (m).
