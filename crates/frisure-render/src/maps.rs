@@ -141,17 +141,18 @@ pub struct Mapper {
 }
 
 impl Mapper {
-    /// Takes strands, `width` times as wide as they are, and the body.
+    /// Takes strands, `width` times as wide as they are, and the body with its brows and lashes, which are as wide as they are.
     ///
     /// # Errors
     /// [`AccelError`], for a coordinate or radius out of range.
     pub fn new(strands: &Strands, body: Option<&Surface>, width: f32) -> Result<Self, AccelError> {
         let features = body.and_then(Surface::features).filter(|f| !f.hairs.is_empty());
+        let wide = strands.clone().with_attributes(|_| false).widened(width);
         let all = match features {
-            Some(features) => strands.followed_by(&features.hairs),
-            None => strands.clone().with_attributes(|_| false),
+            Some(features) => wide.followed_by(&features.hairs),
+            None => wide,
         };
-        let bvh = SceneBvh::new(&all.widened(width), body, &CurveOptions::default())?;
+        let bvh = SceneBvh::new(&all, body, &CurveOptions::default())?;
         Ok(Self { bvh, hairs: strands.len() })
     }
 

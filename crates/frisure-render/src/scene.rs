@@ -88,6 +88,18 @@ pub fn all_hair<'a>(strands: &'a Strands, surface: Option<&Surface>) -> Cow<'a, 
     Cow::Owned(all)
 }
 
+/// How many strands at the end are brows and lashes, which [`all_hair`] has added. They are all there, however few hairs of the head are
+/// drawn, and so are never drawn wider than they are.
+#[must_use]
+pub fn facial_hairs(strands: &Strands) -> usize {
+    match strands.attribute(PIGMENT).map(|attribute| &attribute.values) {
+        Some(AttributeValues::F32(factors)) => {
+            factors.iter().rev().take_while(|&&factor| factor > 1.0).count()
+        }
+        _ => 0,
+    }
+}
+
 /// The box (smallest and largest corner, m) that a picture of this hair should show, for
 /// [`Camera::framing`]: all finite points of the strands, and of the surface its upper 0.27 m, the
 /// head without the shoulders. Without strands it is the whole surface; without either, a box around

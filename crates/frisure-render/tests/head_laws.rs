@@ -157,6 +157,23 @@ fn brows_are_in_both_pictures_and_in_no_hair() {
 }
 
 #[test]
+fn brows_are_as_wide_however_wide_other_hairs_are_drawn() {
+    let (surface, hair) = (skin(), hidden_hair());
+    let surface = hairy(&surface, 100);
+    let scene = scene(&hair, &surface, SkinLook::default());
+    let light = |width_scale: Option<f32>| {
+        let options =
+            PreviewOptions { width: 96, height: 96, width_scale, ..PreviewOptions::default() };
+        mean(&preview::render(&scene, &options, &()).unwrap()).y
+    };
+    let own = light(Some(1.0));
+    // A single hair stands for a whole head, and is drawn six times as wide.
+    for width in [None, Some(6.0)] {
+        assert!((light(width) / own - 1.0).abs() < 1e-3, "{width:?}: {} {own}", light(width));
+    }
+}
+
+#[test]
 fn an_eye_has_an_iris_in_both_pictures() {
     let (mut positions, mut faces) = ball();
     let first = positions.len() as u32;

@@ -13,7 +13,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use frisure_salon::locale::{self, Locale};
-use frisure_salon::state::{Badge, Command, Destination, Document, EXERCISES, code};
+use frisure_salon::state::{Badge, Command, Destination, Document, EXERCISES, Tool, code};
 use frisure_salon::window::desktop::Desktop;
 use frisure_salon::window::platform::InputFile;
 use frisure_salon::window::{App, Parts};
@@ -291,6 +291,32 @@ fn pointer_and_keys_orbit_select_cut_and_pick() {
     window.screen("test-isolated");
     window.key(Modifiers::NONE, Key::Escape);
     assert!(window.harness.state().salon().isolated.is_none());
+}
+
+#[test]
+fn enter_and_escape_end_what_is_typed_in_a_field_and_do_nothing_else() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.small("wavy");
+    window.click("Fringe");
+    window.wait("the choice", |app| app.salon().selected.count().is_some());
+    window.key(Modifiers::NONE, Key::C);
+    for (end, height) in [(Key::Enter, -0.12), (Key::Escape, -0.08)] {
+        let at = window.harness.get_by_role_and_label(Role::SpinButton, "Height").rect().center();
+        window.press(at);
+        window.key(Modifiers::COMMAND, Key::A);
+        window.harness.event(Event::Text(if end == Key::Enter { "-12" } else { "-8" }.into()));
+        window.steps(2);
+        window.key(Modifiers::NONE, end);
+        window.settle();
+        let salon = window.harness.state().salon();
+        assert!(!salon.document.as_ref().expect("one").text().contains("cut = {"), "{end:?}");
+        assert_eq!(salon.tool, Tool::Cut, "{end:?}");
+        assert!(salon.selected.count().is_some(), "{end:?}");
+        assert!((salon.plane.point.z - height).abs() < 1e-9, "{end:?}: {:?}", salon.plane);
+    }
 }
 
 #[test]

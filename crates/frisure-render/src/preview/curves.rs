@@ -5,6 +5,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::projection::{NEAR, Projection};
+use crate::scene::facial_hairs;
 
 /// Greatest distance between a drawn chord and its curve (pixels); this and the next three are chosen by eye.
 const FLATNESS: f32 = 0.25;
@@ -51,6 +52,7 @@ pub(super) struct Curves {
 
 impl Curves {
     pub(super) fn new(strands: &Strands, view: &Projection, width_scale: f32) -> Self {
+        let head_hairs = strands.len() - facial_hairs(strands);
         let chunks = strands.len().div_ceil(CHUNK);
         let range = |c: usize| c * CHUNK..((c + 1) * CHUNK).min(strands.len());
         let counts: Vec<usize> = (0..chunks)
@@ -74,7 +76,8 @@ impl Curves {
                 let strand = strands.strand(i);
                 let start = strands.offsets()[i] as usize;
                 let wet = wetness.map(|w| &w[start..start + strand.points.len()]);
-                fill(strand, wet, i as u32, width_scale, view, &mut out);
+                let scale = if i < head_hairs { width_scale } else { 1.0 };
+                fill(strand, wet, i as u32, scale, view, &mut out);
             }
         });
         Self { vertices }

@@ -17,7 +17,7 @@ use super::projection::Projection;
 use super::shading::Shader;
 use super::tiles::TileGrid;
 use crate::film::{Image, MAX_SIZE};
-use crate::scene::Scene;
+use crate::scene::{Scene, facial_hairs};
 
 /// Size and quality of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,7 +132,7 @@ pub fn render(
 /// The factor on the strands' width: given, or chosen.
 fn width_scale(strands: &Strands, options: &PreviewOptions) -> f32 {
     let given = options.width_scale.filter(|s| s.is_finite() && *s > 0.0);
-    given.unwrap_or_else(|| chosen_width(strands.len()))
+    given.unwrap_or_else(|| chosen_width(strands.len() - facial_hairs(strands)))
 }
 
 /// The factor on the width of `count` strands with which fewer than a full head still cover it.

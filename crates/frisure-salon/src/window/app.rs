@@ -46,6 +46,8 @@ pub struct App {
     has_renderer: bool,
     /// Whether the panels at the side are open where they take the place of the picture.
     side: bool,
+    /// Whether a text field had the focus at the end of the last frame.
+    typing: bool,
 }
 
 /// The parts of a window that depend on the platform.
@@ -91,6 +93,7 @@ impl App {
             aspect: 1.0,
             has_renderer,
             side: false,
+            typing: false,
         }
     }
 
@@ -400,7 +403,10 @@ impl eframe::App for App {
             self.open(&path);
         }
         let modal = was_modal || self.dialogs.current.is_some() || self.salon.recoverable.is_some();
-        let (commands, dialog) = keys::commands(ui, &self.salon, self.aspect, modal);
+        // The Enter or Escape that ends what was typed in a field must not reach the viewport either.
+        let typed = std::mem::replace(&mut self.typing, ui.ctx().text_edit_focused());
+        let typing = typed || self.typing;
+        let (commands, dialog) = keys::commands(ui, &self.salon, self.aspect, modal, typing);
         let has_document = self.salon.document.is_some();
         if let Some(dialog) = dialog.filter(|d| has_document || !d.needs_document()) {
             self.dialogs.open(dialog, &self.salon, self.platform.as_ref());

@@ -7,12 +7,13 @@ use super::toolbars::{grow_a_month, release};
 use crate::state::{Command, Salon, Tool, VIEWS};
 
 /// The commands of the keys pressed in this frame, and the dialog that one opens; none while a dialog is open
-/// (`modal`).
+/// (`modal`), and only those with a modifier or F1 where a text field receives the others (`typing`).
 pub(super) fn commands(
     ui: &Ui,
     salon: &Salon,
     aspect: f64,
     modal: bool,
+    typing: bool,
 ) -> (Vec<Command>, Option<Dialog>) {
     let mut out = Vec::new();
     if modal {
@@ -40,7 +41,7 @@ pub(super) fn commands(
     }
     // A focused text field receives the letters; any other focused widget receives the arrows, Enter and Space.
     let free = !ui.ctx().egui_wants_keyboard_input();
-    if ui.ctx().text_edit_focused() || salon.is_gallery() {
+    if typing || salon.is_gallery() {
         if salon.is_gallery() && hit(Modifiers::NONE, Key::Escape) {
             out.push(Command::Gallery(false));
         }

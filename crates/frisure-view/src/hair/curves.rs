@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use frisure_render::facial_hairs;
 use frisure_render::preview::{Wetness, smooth};
 use frisure_strands::Strands;
 use glam::{Vec2, Vec2Swizzles as _, Vec3};
@@ -24,7 +25,7 @@ const MAX_PIECES: u32 = 32;
 /// Strands per parallel job.
 const CHUNK: usize = 1024;
 
-/// Position (m) and half of the true width (m).
+/// Position (m) and half of the true width (m); negative where the strand is never drawn wider than it is.
 pub(super) type Place = [f32; 4];
 
 /// All that is drawn, as textures hold it: strands in their order of rank.
@@ -39,8 +40,10 @@ pub(super) struct Curves {
     pub(super) strands: Vec<u32>,
     /// First vertex of each rank, and the number of vertices at the end.
     pub(super) firsts: Vec<u32>,
-    /// Strands that could have been drawn, of which there may be more than were kept.
+    /// Hairs of the head that could have been drawn, of which there may be more than were kept.
     pub(super) drawable: usize,
+    /// Brows and lashes: the first of all ranks.
+    pub(super) facial: usize,
 }
 
 impl fmt::Debug for Curves {
@@ -54,7 +57,9 @@ impl Curves {
     /// The strands that can be drawn, in about `enough` vertices if the coarsest detail allows it, and `most`
     /// at most: where that is too few, fewer strands.
     pub(super) fn new(strands: &Strands, enough: usize, most: usize) -> Self {
-        let order = ranks(strands.len());
+        let head_hairs = strands.len() - facial_hairs(strands);
+        let order = ranks(head_hairs);
+        let facial: Vec<u32> = (head_hairs as u32..strands.len() as u32).collect();
         let wetness = Wetness::new(strands);
         let made = |ranks: &[u32], detail: (f32, f32)| {
             let mut part = Self::default();
@@ -71,8 +76,16 @@ impl Curves {
         let enough = enough.min(most) as f64;
         let detail = DETAIL.into_iter().find(|&detail| expected(detail) <= enough);
         let detail = detail.unwrap_or(DETAIL[DETAIL.len() - 1]);
-        let parts: Vec<Self> = order.par_chunks(CHUNK).map(|ranks| made(ranks, detail)).collect();
-        Self::joined(parts, most)
+        let chunks = facial.par_chunks(CHUNK).chain(order.par_chunks(CHUNK));
+        let parts: Vec<Self> = chunks.map(|ranks| made(ranks, detail)).collect();
+        let mut all = Self::joined(parts, most);
+        let is_facial = |strand: &u32| *strand as usize >= head_hairs;
+        all.facial = all.strands.iter().take_while(|strand| is_facial(strand)).count();
+        all.drawable -= all.facial;
+        for place in &mut all.places[..all.firsts[all.facial] as usize] {
+            place[3] = -place[3];
+        }
+        all
     }
 
     /// Adds a strand, if it can be drawn.

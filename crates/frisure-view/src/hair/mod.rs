@@ -49,7 +49,7 @@ struct Textures {
 impl Hair {
     /// Puts strands on the device. Strands that cannot be drawn (fewer than two points, numbers that are not
     /// finite) are left out; where there is too little room for all, evenly chosen ones are, and the others are
-    /// wider.
+    /// wider. Brows and lashes are always drawn, as wide as they are.
     #[must_use]
     pub fn new(
         renderer: &Renderer,
@@ -127,20 +127,27 @@ impl Hair {
         self.bounds
     }
 
-    /// Strands of a share (0 to 1), and the factor on the width of each.
+    /// The first strands: brows, lashes and a share (0 to 1) of the hairs of the head; and the factor on the width of each of those.
     pub(crate) fn shared(&self, share: f32) -> (usize, f32) {
-        let (kept, all) = (self.strands(), self.curves.drawable);
+        let kept = self.strands() - self.curves.facial;
         let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 };
         let drawn = ((kept as f32 * share).ceil() as usize).min(kept);
-        (drawn, chosen_width(all) * all as f32 / drawn.max(1) as f32)
+        (self.curves.facial + drawn, self.factor(drawn))
     }
 
-    /// Strands of which there are at most `pieces` pieces, and the factor on the width of each.
+    /// The first strands: those of which the hairs of the head have at most `pieces` pieces; and the factor on the width of each of those.
     pub(crate) fn some(&self, pieces: usize) -> (usize, f32) {
-        let drawn = self.curves.firsts.partition_point(|&f| f as usize <= pieces).max(2) - 1;
-        let (kept, all) = (self.strands(), self.curves.drawable);
-        let drawn = drawn.min(kept);
-        (drawn, chosen_width(all) * all as f32 / drawn.max(1) as f32)
+        let Curves { firsts, facial, .. } = &self.curves;
+        let heads = &firsts[*facial..];
+        let within = |&first: &u32| (first - heads[0]) as usize <= pieces;
+        let drawn = (heads.partition_point(within).max(2) - 1).min(self.strands() - facial);
+        (facial + drawn, self.factor(drawn))
+    }
+
+    /// The factor on the width of so many hairs of the head.
+    fn factor(&self, drawn: usize) -> f32 {
+        let all = self.curves.drawable;
+        chosen_width(all) * all as f32 / drawn.max(1) as f32
     }
 
     /// Vertices of the first strands.
@@ -148,11 +155,11 @@ impl Hair {
         self.curves.firsts[strands.min(self.strands())] as usize
     }
 
-    /// First vertices of the pieces of the first strands.
+    /// First vertices of the pieces of those of the first strands that are hairs of the head: brows and lashes keep out too little light.
     pub(crate) fn pieces_of(&self, strands: usize) -> Vec<u32> {
-        let firsts = &self.curves.firsts;
-        let strands = strands.min(self.strands());
-        firsts[..=strands].windows(2).flat_map(|ends| ends[0]..ends[1].max(1) - 1).collect()
+        let Curves { firsts, facial, .. } = &self.curves;
+        let strands = strands.clamp(*facial, self.strands());
+        firsts[*facial..=strands].windows(2).flat_map(|ends| ends[0]..ends[1].max(1) - 1).collect()
     }
 
     /// The pieces of the first strands by depth.
@@ -161,10 +168,10 @@ impl Hair {
         Nearest::new(places, firsts, strands, eye, forward)
     }
 
-    /// The first strands, `factor` wider, as what keeps the environment's light out.
+    /// Those of the first strands that are hairs of the head, `factor` wider, as what keeps the environment's light out.
     pub(crate) fn occluders(&self, strands: usize, factor: f32) -> impl Iterator<Item = Occluder> {
-        let end = self.vertices_of(strands);
-        (0..end).map(move |i| Occluder {
+        let (start, end) = (self.vertices_of(self.curves.facial), self.vertices_of(strands));
+        (start..end).map(move |i| Occluder {
             position: self.curves.position(i),
             half_width: self.curves.places[i][3] * factor,
             strand: self.curves.traits[i][2],

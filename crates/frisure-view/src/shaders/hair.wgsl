@@ -13,6 +13,11 @@ struct Ribbon {
     @location(2) @interpolate(flat) shape: vec2<f32>,
 }
 
+// Half of the width that is drawn (m); brows and lashes, marked by the sign, are never wider than they are.
+fn widened(half: f32) -> f32 {
+    return select(half * picture.forward.w, -half, half < 0.0);
+}
+
 @vertex
 fn ribbon(@builtin(vertex_index) vertex: u32) -> Ribbon {
     var out: Ribbon;
@@ -21,7 +26,7 @@ fn ribbon(@builtin(vertex_index) vertex: u32) -> Ribbon {
     let b = textureLoad(places, texel(first + 1u), 0);
     let p = project(a.xyz);
     let q = project(b.xyz);
-    let width = (a.w + b.w) * picture.forward.w * picture.eye.w / max(p.z + q.z, 1e-6);
+    let width = (widened(a.w) + widened(b.w)) * picture.eye.w / max(p.z + q.z, 1e-6);
     // The least softening is that of the preview (`preview/composite.rs`).
     let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(0.35, 1.0), corner_of(vertex));
     let end = line.end > 0.5;
