@@ -78,6 +78,49 @@ fn a_session_from_the_gallery_to_a_groom() {
 }
 
 #[test]
+fn hair_follows_the_comb_and_the_stroke_makes_one_edit() {
+    let mut world = World::new();
+    world.small("wavy");
+    world.run(Command::Take(Tool::Comb));
+    let before = world.text().to_owned();
+    let at_rest = world.salon.preview().unwrap().0.strands.clone();
+    // Back over the middle of the head.
+    let place = |back: f64| DVec3::new(0.02, -0.06 + back, 0.1);
+    let stroke = |share: f64| -> Vec<DVec3> {
+        (0..=10).map(|i| place(0.08 * share * f64::from(i) / 10.0)).collect()
+    };
+    for share in [0.3, 0.6, 1.0] {
+        world.run(Command::DragStroke(stroke(share), DVec3::Y));
+        assert!(world.salon.is_dragging());
+        let (hair, _) = world.salon.preview().unwrap();
+        assert_eq!(hair.quality, Quality::Coarse);
+        assert!(hair.strands != at_rest, "it has followed");
+    }
+    assert_eq!(world.salon.document.as_ref().unwrap().edits().len(), 1);
+    // Another tool ends the stroke without an edit.
+    world.run(Command::Take(Tool::Orbit));
+    assert!(world.text() == before && !world.salon.is_dragging() && world.salon.is_settled());
+    assert!(world.salon.preview().unwrap().0.strands == at_rest);
+
+    world.run(Command::DragStroke(stroke(1.0), DVec3::Y));
+    // So does a stroke that ends where it began.
+    world.run(Command::Stroke(stroke(1.0), DVec3::ZERO));
+    assert!(world.text() == before && !world.salon.is_dragging());
+
+    world.run(Command::DragStroke(stroke(0.6), DVec3::Y));
+    world.run(Command::Stroke(stroke(1.0), DVec3::Y));
+    assert!(!world.salon.is_dragging() && world.salon.is_settled());
+    assert_eq!(world.salon.document.as_ref().unwrap().edits().len(), 2);
+    let followed = world.salon.preview().unwrap().0.strands.clone();
+    // The answer is that of the stroke alone.
+    let mut again = World::new();
+    again.small("wavy");
+    again.run(Command::Stroke(stroke(1.0), DVec3::Y));
+    assert_eq!(again.text(), world.text());
+    assert!(again.salon.preview().unwrap().0.strands == followed, "the same bytes");
+}
+
+#[test]
 fn a_dragged_slider_shows_coarse_hair_and_makes_one_edit() {
     let mut world = World::new();
     world.of("wavy", 16);
@@ -443,6 +486,8 @@ fn absurd_commands_leave_a_valid_state() {
                 aspect: 1.0,
                 mode: SelectMode::Replace,
             },
+            Command::DragStroke(vec![DVec3::splat(nan); 3], DVec3::Y),
+            Command::DragStroke(vec![DVec3::ZERO; 3], DVec3::Y),
             Command::Stroke(vec![DVec3::ZERO; 3], DVec3::ZERO),
             Command::Plane(CutPlane { point: DVec3::splat(nan), ..CutPlane::level(0.0) }),
             Command::Turn(nan, nan),

@@ -73,6 +73,9 @@ pub enum Command {
     Apply(Operation),
     /// Wets the selected hair, or dries it if it is wet.
     ToggleWet,
+    /// Combs hair with roots near positions on the skin along a direction (m), while the stroke is still drawn: the next one, or
+    /// [`Self::Stroke`], takes its place.
+    DragStroke(Vec<DVec3>, DVec3),
     /// Combs hair with roots near positions on the skin along a direction (m).
     Stroke(Vec<DVec3>, DVec3),
     /// Moves the cutting plane.

@@ -14,7 +14,7 @@ pub struct Document {
     edits: Vec<Edit>,
     at: usize,
     saved: Option<usize>,
-    /// The text while a slider is dragged.
+    /// The text while a slider or the comb is dragged.
     draft: Option<String>,
 }
 
@@ -59,7 +59,7 @@ impl Document {
         self.path().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// The current text, with the draft of a dragged slider.
+    /// The current text, with the draft of what is dragged.
     #[must_use]
     pub fn text(&self) -> &str {
         self.draft.as_deref().unwrap_or(&self.edits[self.at].text)
@@ -77,7 +77,7 @@ impl Document {
         self.at
     }
 
-    /// Whether the user drags a slider.
+    /// Whether the user drags a slider or the comb.
     #[must_use]
     pub fn is_draft(&self) -> bool {
         self.draft.is_some()
@@ -92,7 +92,7 @@ impl Document {
         !saved.is_some_and(same)
     }
 
-    /// Replaces the current text during a drag of a slider, without an edit.
+    /// Replaces the current text during a drag of a slider or of the comb, without an edit.
     pub fn draft(&mut self, text: String) {
         self.draft = Some(text);
     }

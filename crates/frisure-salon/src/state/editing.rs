@@ -59,7 +59,7 @@ impl Salon {
         }
     }
 
-    /// Makes a text the current one, or a draft while a slider is dragged. Returns whether it is a valid scene;
+    /// Makes a text the current one, or a draft while a slider or the comb is dragged. Returns whether it is a valid scene;
     /// an invalid one is reported and changes nothing.
     pub(super) fn change(
         &mut self,
@@ -105,6 +105,15 @@ impl Salon {
         let before = &document.edits()[document.at()].text;
         let label = self.scene.as_ref().and_then(|parsed| changed(before, parsed));
         document.keep_draft(label.unwrap_or_else(|| tr!("changed")));
+    }
+
+    /// Drops a draft: the last edit is what is shown again.
+    pub(super) fn drop_draft(&mut self) {
+        let Some(document) = self.document.as_mut().filter(|d| d.is_draft()) else { return };
+        document.drop_draft();
+        if let Ok(parsed) = parse(document, document.text()) {
+            self.scene = Some(Arc::new(parsed));
+        }
     }
 
     /// Sets a key to an option of its choice, as TOML.

@@ -29,7 +29,7 @@ pub enum Badge {
     Refused(String),
 }
 
-/// Maximum number of coarse responses to one text before the exact one, during a drag of a slider and otherwise. An exact
+/// Maximum number of coarse responses to one text before the exact one, during a drag of a slider or of the comb and otherwise. An exact
 /// computation takes seconds, and early coarse hair is far from its equilibrium. Chosen by trial.
 const MAX_COARSE_DRAGGING: usize = 30;
 const MAX_COARSE: usize = 3;

@@ -269,7 +269,7 @@ impl Salon {
         self.gallery || self.document.is_none()
     }
 
-    /// Whether the user drags a slider.
+    /// Whether the user drags a slider or the comb.
     #[must_use]
     pub fn is_dragging(&self) -> bool {
         self.document.as_ref().is_some_and(Document::is_draft)
@@ -333,7 +333,7 @@ impl Salon {
         Some(scene_ref(document, document.text(), parsed))
     }
 
-    /// The text without the draft of a dragged slider.
+    /// The text without the draft of what is dragged.
     pub(super) fn base(&self) -> Option<&str> {
         let document = self.document.as_ref()?;
         Some(&document.edits()[document.at()].text)

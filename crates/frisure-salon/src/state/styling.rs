@@ -25,6 +25,10 @@ impl Salon {
         if tool != Tool::Pick {
             self.isolated = None;
         }
+        // A stroke of the comb that has not ended belongs to no other tool.
+        if tool != self.tool {
+            self.drop_draft();
+        }
         self.tool = tool;
     }
 
@@ -103,13 +107,18 @@ impl Salon {
             Selection::Everything => part,
             selection => Selection::All(vec![selection.clone(), part]),
         };
+        let draft = matches!(command, Command::DragStroke(..));
         let operation = match command {
             Command::Apply(operation) => operation.on(selection),
             Command::ToggleWet if self.is_wet() => Operation::from(Dry::default()).on(selection),
             Command::ToggleWet => Operation::from(Wet::default()).on(selection),
-            Command::Stroke(places, direction) => {
-                let Some(direction) = direction.try_normalize() else { return };
-                let Some(under) = self.under_brush(&places) else { return };
+            Command::Stroke(ref places, direction) | Command::DragStroke(ref places, direction) => {
+                let (Some(direction), Some(under)) =
+                    (direction.try_normalize(), self.under_brush(places))
+                else {
+                    // Back where it began, it has combed nothing.
+                    return self.drop_draft();
+                };
                 comb(Direction::Along(rounded(direction, 1e-3))).on(within(under))
             }
             Command::Lift(places) => {
@@ -143,7 +152,7 @@ impl Salon {
                 }
             }
             let text = edit::append(base, &steps);
-            self.change(&label, text, false);
+            self.change(&label, text, draft);
         }
     }
 

@@ -80,6 +80,7 @@ impl Salon {
             Command::ToggleMirror => self.mirror = !self.mirror,
             Command::Apply(_)
             | Command::ToggleWet
+            | Command::DragStroke(..)
             | Command::Stroke(..)
             | Command::Cut
             | Command::Snip(_)

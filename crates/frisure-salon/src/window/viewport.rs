@@ -31,6 +31,8 @@ pub(super) struct Viewport {
     lasso: Vec<Pos2>,
     /// Hits of the brush or comb stroke that is being drawn (m).
     stroke: Vec<DVec3>,
+    /// Where the comb was (m) when the hair was last told to follow it.
+    followed: Option<DVec3>,
     /// Time of the last motion (s).
     last_motion: f64,
     /// Fraction of the strands drawn during motion.
@@ -79,6 +81,9 @@ const REST: f64 = 0.25;
 /// Time of a frame (s) from which on no further strands are drawn: the window waits for a picture, and the next has twice as many.
 /// Chosen: a third of a second is felt as a halt.
 const PATIENCE: f32 = 0.15;
+
+/// Way of the comb, in radii, after which hair follows it anew. Chosen: that of the spots that a stroke is made of.
+const FOLLOWING: f64 = 1.0 / 3.0;
 
 /// Minimum number of strands drawn during motion. Chosen by trial.
 const MIN_STRANDS: f32 = 4000.0;
@@ -280,7 +285,12 @@ impl Viewport {
                 self.lasso.truncate(1);
                 self.lasso.push(at);
             }
-            tool if tool.is_brush() && (drags || response.clicked()) => self.stroke.extend(hit()),
+            tool if tool.is_brush() && (drags || response.clicked()) => {
+                self.stroke.extend(hit());
+                if tool == Tool::Comb {
+                    self.follow_comb(salon.brush.radius, out);
+                }
+            }
             Tool::Cut if drags => {
                 let delta = response.drag_delta() / rect.height();
                 let mut plane = salon.plane;
@@ -302,11 +312,21 @@ impl Viewport {
         }
     }
 
+    /// Lets the hair follow the comb once it has moved by a share of its radius (m).
+    fn follow_comb(&mut self, radius: f64, out: &mut Vec<Command>) {
+        let [from, .., to] = self.stroke[..] else { return };
+        if self.followed.unwrap_or(from).distance(to) > FOLLOWING * radius {
+            self.followed = Some(to);
+            out.push(Command::DragStroke(self.stroke.clone(), to - from));
+        }
+    }
+
     /// Turns the drawn lasso or stroke into a command.
     fn finish_stroke(&mut self, ui: &Ui, rect: Rect, salon: &Salon, out: &mut Vec<Command>) {
         let mode = widgets::select_mode(ui);
         let lasso = std::mem::take(&mut self.lasso);
         let stroke = std::mem::take(&mut self.stroke);
+        self.followed = None;
         match salon.tool {
             Tool::Lasso if lasso.len() >= 3 => {
                 let polygon = lasso.into_iter().map(|p| to_ndc(p, rect)).collect();
