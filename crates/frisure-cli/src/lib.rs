@@ -16,6 +16,7 @@ mod pictures;
 mod progress;
 
 use std::ffi::OsString;
+use std::io::{IsTerminal, stdout};
 
 use clap::Parser;
 
@@ -37,7 +38,20 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Where standard output is closed, the exit status still says what happened.
+            // What was asked for, such as the help, is a document as any other.
+            if !error.use_stderr() {
+                let text = error.render();
+                let text =
+                    if stdout().is_terminal() { text.ansi().to_string() } else { text.to_string() };
+                return match console::print(&text) {
+                    Ok(()) => ExitStatus::Success.into(),
+                    Err(error) => {
+                        console::show_error(&error);
+                        exit_code(&error)
+                    }
+                };
+            }
+            // Where standard error is closed, the exit status still says what happened.
             let _ = error.print();
             return u8::try_from(error.exit_code()).unwrap_or(USAGE);
         }

@@ -142,10 +142,6 @@ fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
     Thickness::new(rod, spec.curl.strain, hairs, patch, spread, volume(spec))
 }
 
-/// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.
-/// Chosen by trial; not measured further.
-const SPARE: f64 = 5e-3;
-
 /// The fibre that a guide is.
 pub(crate) struct Planned {
     pub(crate) rod: Rod,
@@ -166,7 +162,7 @@ fn fibre(
     let varied = random.factor(spec.length.variation_between);
     let (length, share) = match layout.length(head, root) {
         // Cut to a line: there it does not vary.
-        Some(length) => (length + SPARE, 1.0),
+        Some(length) => (length + layout.spare(root), 1.0),
         None => (spec.length.mean * varied, varied),
     };
     let curl = mean_strain(&spec.curl, layout.curl(root), &mut random);
@@ -340,7 +336,9 @@ mod tests {
             let (_, normal) = mannequin().signed_distance().value_gradient(position);
             fibre(&spec, mannequin(), &layout, &Root { position, normal }, 3).unwrap().rod
         };
-        let [shorter, longer] = [-1e-12, 1e-12].map(|more| planned(4.0 * knot - SPARE + more));
+        // As long as the region says, to the last bit.
+        assert_eq!(planned(0.002).length(), 0.002);
+        let [shorter, longer] = [-1e-12, 1e-12].map(|more| planned(4.0 * knot + more));
         let knots = |rod: &Rod| match rod.natural() {
             NaturalStrain::Varying(profile) => profile.knots().to_vec(),
             NaturalStrain::Uniform(_) => Vec::new(),

@@ -9,10 +9,10 @@ use frisure::hairstyle::styling::{Dry, Grow, Growth, Operation, Selection, Wet};
 use frisure::scene::edit;
 use frisure_engine::{Diagnostic, Quality, Response};
 use frisure_salon::state::{
-    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, Document, EXERCISES, Exercise,
-    ExerciseCard, RenderTask, Scissors, SelectMode, Snip, TOUR, Tool, code,
+    Badge, CONTROLS, CombPlace, CombStroke, Command, CutHold, CutPlane, Destination, Document,
+    EXERCISES, Exercise, ExerciseCard, RenderTask, Scissors, SelectMode, Snip, TOUR, Tool, code,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 
 const FRINGE: Place = Place::Region(Region::Fringe);
@@ -84,13 +84,19 @@ fn hair_follows_the_comb_and_the_stroke_makes_one_edit() {
     world.run(Command::Take(Tool::Comb));
     let before = world.text().to_owned();
     let at_rest = world.salon.preview().unwrap().0.strands.clone();
-    // Back over the middle of the head.
-    let place = |back: f64| DVec3::new(0.02, -0.06 + back, 0.1);
-    let stroke = |share: f64| -> Vec<DVec3> {
-        (0..=10).map(|i| place(0.08 * share * f64::from(i) / 10.0)).collect()
+    // From a place amid the hair to the right.
+    let (hair, orbit) = (world.salon.preview().unwrap().0.clone(), world.salon.orbit);
+    let points = hair.strands.points.as_chunks::<3>().0;
+    let from = Vec3::from_array(points[hair.strands.offsets[1] as usize / 2]).as_dvec3();
+    let stroke = |length: f64| {
+        let place = |i: i32| {
+            let p = from + orbit.camera().right() * (length * f64::from(i) / 10.0);
+            CombPlace { at: orbit.project(p, 1.5).unwrap(), skin: None }
+        };
+        CombStroke { path: (0..=10).map(place).collect(), aspect: 1.5 }
     };
-    for share in [0.3, 0.6, 1.0] {
-        world.run(Command::DragStroke(stroke(share), DVec3::Y));
+    for length in [0.02, 0.04, 0.06] {
+        world.run(Command::DragComb(stroke(length)));
         assert!(world.salon.is_dragging());
         let (hair, _) = world.salon.preview().unwrap();
         assert_eq!(hair.quality, Quality::Coarse);
@@ -102,20 +108,20 @@ fn hair_follows_the_comb_and_the_stroke_makes_one_edit() {
     assert!(world.text() == before && !world.salon.is_dragging() && world.salon.is_settled());
     assert!(world.salon.preview().unwrap().0.strands == at_rest);
 
-    world.run(Command::DragStroke(stroke(1.0), DVec3::Y));
+    world.run(Command::DragComb(stroke(0.06)));
     // So does a stroke that ends where it began.
-    world.run(Command::Stroke(stroke(1.0), DVec3::ZERO));
+    world.run(Command::Comb(stroke(0.0)));
     assert!(world.text() == before && !world.salon.is_dragging());
 
-    world.run(Command::DragStroke(stroke(0.6), DVec3::Y));
-    world.run(Command::Stroke(stroke(1.0), DVec3::Y));
+    world.run(Command::DragComb(stroke(0.04)));
+    world.run(Command::Comb(stroke(0.06)));
     assert!(!world.salon.is_dragging() && world.salon.is_settled());
     assert_eq!(world.salon.document.as_ref().unwrap().edits().len(), 2);
     let followed = world.salon.preview().unwrap().0.strands.clone();
     // The answer is that of the stroke alone.
     let mut again = World::new();
     again.small("wavy");
-    again.run(Command::Stroke(stroke(1.0), DVec3::Y));
+    again.run(Command::Comb(stroke(0.06)));
     assert_eq!(again.text(), world.text());
     assert!(again.salon.preview().unwrap().0.strands == followed, "the same bytes");
 }
@@ -486,9 +492,15 @@ fn absurd_commands_leave_a_valid_state() {
                 aspect: 1.0,
                 mode: SelectMode::Replace,
             },
-            Command::DragStroke(vec![DVec3::splat(nan); 3], DVec3::Y),
-            Command::DragStroke(vec![DVec3::ZERO; 3], DVec3::Y),
-            Command::Stroke(vec![DVec3::ZERO; 3], DVec3::ZERO),
+            Command::DragComb(CombStroke { path: vec![], aspect: nan }),
+            Command::DragComb(CombStroke {
+                path: vec![CombPlace { at: [nan; 2], skin: Some(DVec3::splat(nan)) }; 3],
+                aspect: 1.0,
+            }),
+            Command::Comb(CombStroke {
+                path: vec![CombPlace { at: [0.0; 2], skin: Some(DVec3::ZERO) }; 3],
+                aspect: 1.0,
+            }),
             Command::Plane(CutPlane { point: DVec3::splat(nan), ..CutPlane::level(0.0) }),
             Command::Turn(nan, nan),
             Command::Zoom(0.0),

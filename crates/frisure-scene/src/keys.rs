@@ -124,7 +124,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Natural curl, the shape without weight. It is said in one way: `radius` and `pitch`; or
         /// strains; or, for one hair, strains `along` it.
         "hair.curl" => table();
-        /// Radius of the natural helix; more than 0, at most 100 m. On a head the strain, 1/`radius` at most, may be 20 000 rad/m.
+        /// Radius of the natural helix; more than 0, at most 100 m. The strain, 1/`radius` at most, may be 1e5 rad/m, on a head 20 000.
         "hair.curl.radius" => number::<Length>().bounds(0.0, 100.0)
             .slider(Panel::Curl, "Curl radius", MM, (0.5, 200.0), 1, "Radius of the curl that a hair would have without weight.")
             .logarithmic()

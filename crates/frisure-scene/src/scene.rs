@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use frisure_hairstyle::HairstyleSpec;
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::styling::{Operation, Selection};
+use frisure_hairstyle::{HairstyleSpec, RegionStyle};
 use frisure_look::{CameraSpec, LightSpec, LookSpec, ToneCurve};
 use frisure_rod::{Branch, Options, Rod, StrainProfile};
 
@@ -144,6 +144,12 @@ impl Default for Output {
 }
 
 impl Scene {
+    /// The styles of regions, as they are written.
+    #[must_use]
+    pub fn regions(&self) -> &[RegionStyle] {
+        &self.spec.regions
+    }
+
     /// The operations of the steps, in order.
     #[must_use]
     pub fn steps(&self) -> &[Operation] {

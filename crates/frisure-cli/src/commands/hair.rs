@@ -50,7 +50,8 @@ struct Report {
 
 /// Computes and prints the hair of a scene.
 pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
-    let hair = read_scene(&arguments.scene)?.single_hair()?;
+    let scene = read_scene(&arguments.scene)?;
+    let hair = scene.single_hair()?;
     memory::check_points(arguments.points.unwrap_or(0) as f64, memory::PRINTED_POINT)?;
     let rest = equilibrium(&hair.rod, &[], &hair.options);
     let requested = match hair.options.resolution {
@@ -68,6 +69,9 @@ pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
         console::note(&format!(
             "a mean diameter of {diameter:.3e} m is not that of a hair; hair of the scalp has 40 to 120 um"
         ));
+    }
+    if !scene.steps().is_empty() || !scene.regions().is_empty() {
+        console::note("steps and regions of the scene are for a head: the hair is as it grows");
     }
     let given = matches!(hair.options.resolution, Resolution::Elements(_));
     if given && rest.certificate.stability == Stability::Undecided {

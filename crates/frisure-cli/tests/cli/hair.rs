@@ -195,14 +195,28 @@ fn a_reader_that_leaves_is_no_error() {
     }
 }
 
+#[test]
+fn steps_and_regions_are_told_to_be_for_a_head() {
+    let room = Room::new()
+        .with("steps.toml", "step = [{ cut = { length = '5 cm' } }]")
+        .with("regions.toml", "region = [{ where = 'all', curl = 3 }]")
+        .with("plain.toml", "");
+    for (scene, told) in [("steps.toml", true), ("regions.toml", true), ("plain.toml", false)] {
+        let ran = room.run(&["hair", scene]);
+        assert_eq!((ran.code, ran.err.contains("are for a head")), (Some(0), told), "{}", ran.err);
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_error() {
-    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
     let room = Room::new();
-    let output = room.command(&["schema"]).stdout(Stdio::from(full)).output().unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
+    for arguments in [&["schema"][..], &["--help"], &["hair", "--help"], &["--version"]] {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = room.command(arguments).stdout(Stdio::from(full)).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
+    }
 }
 
 #[test]

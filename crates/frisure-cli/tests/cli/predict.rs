@@ -655,3 +655,31 @@ fn a_groom_that_lies_elsewhere_is_refused_with_the_lines_that_place_it() {
         assert!(ran.out.contains("wrote c.hair"), "{}", ran.out);
     }
 }
+
+#[test]
+fn what_says_how_grooms_are_written_needs_one() {
+    let room = Room::new().with("quick.toml", QUICK);
+    for options in [
+        &["--points", "5"][..],
+        &["--hairs", "3"],
+        &["--fibres"],
+        &["--accessories"],
+        &["--unit", "cm"],
+        &["--each-step"],
+    ] {
+        let ran = room.run(&[&["predict", "quick.toml", "--report", "a.json"], options].concat());
+        assert_eq!(ran.code, Some(2), "{options:?}");
+        assert!(ran.err.contains(options[0]) && ran.err.contains("-o hair.hair"), "{}", ran.err);
+    }
+}
+
+#[test]
+fn simulated_hairs_that_are_not_at_rest_are_no_success() {
+    let tied = "hair = { type = 'caucasian-straight', length = '30 cm' }\n\
+                wisps = { count = 20, hairs = 200, strands = 'simulated' }\n[[step]]\ntie = {}\n";
+    let room = Room::new().with("tied.toml", tied);
+    let ran = room.run(&["predict", "tied.toml", "--report", "a.json"]);
+    let report: Value = serde_json::from_slice(&fs::read(room.path("a.json")).unwrap()).unwrap();
+    let [hairs, stable] = ["hairs", "stable"].map(|key| report["simulated"][key].as_u64().unwrap());
+    assert_eq!(ran.code, Some(if stable < hairs { 3 } else { 0 }), "{}", ran.out);
+}

@@ -76,7 +76,13 @@ impl StepReport {
 fn changed(before: &Hairstyle, after: &Hairstyle) -> usize {
     let rods = before.guides().iter().zip(after.guides()).map(|(a, b)| a.rod != b.rod);
     let states = before.wisps().iter().zip(after.wisps()).map(|(a, b)| a != b);
-    rods.zip(states).filter(|(rod, state)| *rod || *state).count()
+    // Thinning scissors cut hairs and no guides.
+    let left = before.left_by_thinning().into_iter().zip(after.left_by_thinning());
+    let thinned = left.map(|(a, b)| a != b);
+    rods.zip(states)
+        .zip(thinned)
+        .filter(|((rod, state), thinned)| *rod || *state || *thinned)
+        .count()
 }
 
 /// The number of wisps that a clip or a tie does not hold where it is: they are too short for it, or the head is in the way.

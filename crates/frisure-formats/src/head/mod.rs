@@ -43,8 +43,8 @@ pub fn extensions() -> impl Iterator<Item = &'static str> {
     FORMATS.iter().flat_map(|format| format.extensions).copied()
 }
 
-/// Sizes (m) that a head, with or without shoulders, can have.
-const SENSIBLE: (f64, f64) = (0.05, 3.0);
+/// Sizes (m) that a head, with or without shoulders or a whole body, can have.
+const SENSIBLE: (f64, f64) = (0.05, 2.5);
 
 /// Largest area of all faces, over the square of the longest side of the box around them. Chosen: heads have 1 to 5, and
 /// each layer of faces on each other makes the distance to the skin slower to compute.

@@ -45,7 +45,7 @@ pub enum HeadFileError {
     },
     /// The mesh has not the size of a head.
     #[error(
-        "`{}` is {} m across, and a head is between 5 cm and 3 m; {}",
+        "`{}` is {} m across, and a head is between 5 cm and 2.5 m; {}",
         path.display(),
         short(*size),
         unit_hint(*size, *scale)

@@ -93,11 +93,11 @@ fn a_head_has_the_size_of_a_head() {
     let size = |scale: f64| head(TETRAHEDRON, |h| h.frame.metres = Some(scale)).unwrap_err();
     assert_eq!(
         size(1.0),
-        "`head.obj` is 20.000 m across, and a head is between 5 cm and 3 m; \
+        "`head.obj` is 20.000 m across, and a head is between 5 cm and 2.5 m; \
          is it in \"in\"? set `unit = \"in\"`"
     );
-    assert!(size(0.001).contains("5 cm and 3 m"));
-    assert!(size(1e300).contains("5 cm and 3 m"));
+    assert!(size(0.001).contains("5 cm and 2.5 m"));
+    assert!(size(1e300).contains("5 cm and 2.5 m"));
     // Squares overflow long before coordinates do.
     let huge = head("v 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 2 3\n", |_| {}).unwrap_err();
     assert!(huge.contains("set `scale`"), "{huge}");
@@ -129,6 +129,9 @@ fn a_unit_that_nobody_says_is_guessed_from_the_size() {
     let none = head("v 0 2e9 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", |h| h.frame.metres = None);
     assert!(none.unwrap_err().contains("set `scale`"));
     assert_eq!(head(TETRAHEDRON, |_| {}).unwrap().guessed_unit, None);
+    // A bust in decimetres is no body of 2.7 m.
+    let decimetres = of("v 0 2.7 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    assert_eq!(decimetres.guessed_unit, Some("dm"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Where the hair of one lock of a braid of three lies.
 //!
 //! The braid hangs from a tie. With a the drop below the tie and H the distance by which the braid stands off in the end, its middle is at
-//! `m(a) = m₀ + H (1 − e^(−a/ℓ)) e_out − a z`. A lock goes to and fro across the braid once in a pitch P, and over and under the others
+//! `m(a) = m₀ + H (1 − e^(−a/ℓ)) e_out + a e_down`. A lock goes to and fro across the braid once in a pitch P, and over and under the others
 //! twice: with θ = 2π a/P + φ and the locks' phases φ = 0, 2π/3, 4π/3 it is at `A sin θ` across and `B sin 2θ` out of the braid's middle.
 //! Two locks are at the same place across where their θ are 30° and 150°; there they are √3 B apart in depth, and 3/2 A from the
 //! third.
@@ -16,7 +16,9 @@ use glam::DVec3;
 pub struct BraidPath {
     /// The middle of the tie (m).
     pub middle: DVec3,
-    /// Horizontal unit vector away from the head.
+    /// Unit vector in which gravity pulls.
+    pub down: DVec3,
+    /// Unit vector at right angles to it, away from the head.
     pub out: DVec3,
     /// How far (m) the braid stands off from the tie at its end.
     pub stand_off: f64,
@@ -34,6 +36,7 @@ pub struct BraidPath {
 
 frisure_digest::digest_fields!(BraidPath {
     middle,
+    down,
     out,
     stand_off,
     lock,
@@ -77,10 +80,16 @@ impl BraidPath {
         (DEPTH + 1.0) * self.lock
     }
 
+    /// Unit vector across the braid.
+    #[must_use]
+    pub(crate) fn across(&self) -> DVec3 {
+        self.down.cross(self.out)
+    }
+
     /// The middle of the braid (m) at a drop (m) below the tie.
     #[must_use]
     pub(crate) fn axis(&self, drop: f64) -> DVec3 {
-        self.middle + self.out * (self.stand_off * (1.0 - (-drop / BEND).exp())) - DVec3::Z * drop
+        self.middle + self.out * (self.stand_off * (1.0 - (-drop / BEND).exp())) + self.down * drop
     }
 
     /// Place (m) of the hair at a drop (m) below the tie.
@@ -94,8 +103,8 @@ impl BraidPath {
         let angle = TAU * drop / self.pitch() + self.phase;
         let wave = [ACROSS * angle.sin(), DEPTH * (2.0 * angle).sin()];
         let offset = |i: usize| open * (wave[i] * self.lock + self.in_lock[i]);
-        let down = self.out * (self.stand_off / BEND * (-drop / BEND).exp()) - DVec3::Z;
-        let across = self.out.cross(DVec3::Z);
+        let down = self.out * (self.stand_off / BEND * (-drop / BEND).exp()) + self.down;
+        let across = self.across();
         let out = across.cross(down).normalize_or(self.out);
         self.axis(drop) + self.in_tie * (1.0 - share) + across * offset(0) + out * offset(1)
     }
@@ -134,6 +143,7 @@ mod tests {
     fn path(phase: f64) -> BraidPath {
         BraidPath {
             middle: DVec3::new(0.0, 0.1, -0.05),
+            down: DVec3::NEG_Z,
             out: DVec3::Y,
             stand_off: 0.05,
             lock: 7e-3,

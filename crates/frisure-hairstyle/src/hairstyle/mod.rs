@@ -20,7 +20,9 @@ pub(crate) use rest::Rest;
 pub(crate) use wet_locks::COUNTED;
 pub use wet_locks::WetLockSizes;
 pub use wisp_state::WispState;
-pub(crate) use wisp_state::{DRAWN, Ends, Fastener, Grip, Lay, Mould, ROOM, Styling, strain_of};
+pub(crate) use wisp_state::{
+    DRAWN, Ends, Fastener, Grip, Lay, Mould, ROOM, Styling, Thinned, strain_of,
+};
 
 /// Guides at rest on a head, the description that they were predicted from, and what styling made of them.
 #[derive(Clone, Debug)]
@@ -63,16 +65,32 @@ impl Hairstyle {
         !self.styling.is_none(&self.guides)
     }
 
-    /// Mass (kg) of all hair that grows on the head, each hair taken to be as long as its guide. Water does not change it (the
-    /// paper, §3.2.1).
+    /// Mass (kg) of all hair that grows on the head, each hair taken to be as long as its guide but for what thinning scissors have cut
+    /// off. Water does not change it (the paper, §3.2.1).
     #[must_use]
     pub fn mass(&self) -> f64 {
         let each = self.grown() / self.guides.len() as f64;
-        let mass = |guide: &Guide| {
+        let mass = |(guide, left): (&Guide, f64)| {
             let rod = guide.rod.spec();
-            rod.material.density() * rod.section.area() * rod.length
+            rod.material.density() * rod.section.area() * rod.length * left
         };
-        self.guides.iter().map(mass).sum::<f64>() * each
+        self.guides.iter().zip(self.left_by_thinning()).map(mass).sum::<f64>() * each
+    }
+
+    /// The share (0 to 1) of the hair of each wisp that thinning scissors have left, which cut hairs and no guides; 1 where they did
+    /// nothing. In the order of [`Self::guides`].
+    #[must_use]
+    pub fn left_by_thinning(&self) -> Vec<f64> {
+        let wisps = &self.styling.wisps;
+        let Some(ends) = &self.styling.ends else { return vec![1.0; wisps.len()] };
+        let Some(Thinned { limits, every }) = &ends.thinned else { return vec![1.0; wisps.len()] };
+        let mut shares = vec![(0.0, 0_u32); wisps.len()];
+        for (limit, &wisp) in limits.iter().zip(&*ends.wisps).step_by(*every) {
+            let (sum, count) = &mut shares[wisp as usize];
+            *sum += (f64::from(*limit) / wisps[wisp as usize].length).min(1.0);
+            *count += 1;
+        }
+        shares.into_iter().map(|(sum, n)| if n > 0 { sum / f64::from(n) } else { 1.0 }).collect()
     }
 
     /// The guides, as they were planted, cut, grown and wetted.

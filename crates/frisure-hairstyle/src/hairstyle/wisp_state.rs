@@ -74,6 +74,17 @@ pub(crate) struct Ends {
     pub(crate) wisps: Arc<[u32]>,
     /// How many cuts there have been.
     pub(crate) cuts: u32,
+    /// What thinning scissors have left, which cut hairs and no guides; none before they did.
+    pub(crate) thinned: Option<Thinned>,
+}
+
+/// The length at which thinning scissors have cut each drawn hair.
+#[derive(Clone, Debug)]
+pub(crate) struct Thinned {
+    /// Length (m) of the dry hair, infinite where they have not cut it.
+    pub(crate) limits: Arc<[f32]>,
+    /// Only of every so many-th hair it is known: in a draft not all are drawn.
+    pub(crate) every: usize,
 }
 
 /// What styling has made of one wisp. Lengths are those of dry hair, in air of 60 %.

@@ -14,7 +14,7 @@ use glam::DVec3;
 use crate::head::{Head, Landmarks};
 use crate::math::smooth_step;
 use crate::random::{Purpose, Stream};
-use crate::spec::{Flow, HairstyleSpec, Implantation, Lift, Parting, RegionStyle};
+use crate::spec::{Flow, HairstyleSpec, Implantation, Lift, Parting, RegionLength, RegionStyle};
 
 pub use parting::PartingError;
 pub(crate) use roots::Scalp;
@@ -36,6 +36,10 @@ pub(crate) struct Layout {
     /// Angle (rad) between a curl's fibre and the axis that it winds about.
     lead: f64,
 }
+
+/// How much longer (m) than its way down to a level a guide is: the way over hair is longer than over skin.
+/// Chosen by trial; not measured further.
+const SPARE: f64 = 5e-3;
 
 /// Length along the skin below which a flow is no direction: there hair stands up. Chosen by eye; not measured.
 const FAINT: f64 = 0.4;
@@ -148,6 +152,12 @@ impl Layout {
         let style = &self.regions[self.cut(root.position)?];
         let length = style.length?;
         Some(regions::length(length, head, root, self.direction(root)))
+    }
+
+    /// How much longer (m) than [`Self::length`] a guide is: the way over hair down to a level is longer than over skin.
+    pub(crate) fn spare(&self, root: &Root) -> f64 {
+        let length = self.cut(root.position).and_then(|index| self.regions[index].length);
+        if let Some(RegionLength::DownTo(_)) = length { SPARE } else { 0.0 }
     }
 
     /// Which region gives the hair rooted at a point (m) of the skin its length.

@@ -81,10 +81,15 @@ fn plan(
     let hairs = hairstyle.grown() / hairstyle.guides.len() as f64;
     let section = |tied: &Tied| hairstyle.guides[tied.wisp].rod.spec().section.area();
     let area = tied.iter().map(section).sum::<f64>() * hairs / PACKING;
-    let away = middle - head.landmarks().cranium_centre;
+    let (away, face) = (middle - head.landmarks().cranium_centre, head.landmarks().face);
+    // It hangs along gravity, wherever that pulls in the head's frame.
+    let down = hairstyle.spec.pose.down();
+    let across_down = |v: DVec3| v - down * v.dot(down);
+    let aside = down.any_orthonormal_vector();
     let mut path = BraidPath {
         middle,
-        out: away.with_z(0.0).normalize_or(-head.landmarks().face),
+        down,
+        out: across_down(away).normalize_or(across_down(-face).normalize_or(aside)),
         stand_off: 0.0,
         lock: (area / 3.0 / PI).sqrt(),
         phase: 0.0,
@@ -121,7 +126,7 @@ fn stand_off(head: &Head, path: BraidPath) -> f64 {
 
 /// Each wisp with its place in the tie and its way through the braid.
 fn ways(plan: BraidPath, tied: &[Tied]) -> Vec<(usize, f64, BraidPath)> {
-    let across = plan.out.cross(DVec3::Z);
+    let across = plan.across();
     let mut order: Vec<&Tied> = tied.iter().collect();
     order.sort_by(|a, b| {
         let (a_side, b_side) = (a.place.dot(across), b.place.dot(across));

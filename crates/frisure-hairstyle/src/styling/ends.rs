@@ -1,7 +1,7 @@
 //! Where drawn hairs have been cut.
 
-use crate::hairstyle::Ends;
 use crate::hairstyle::Hairstyle;
+use crate::hairstyle::{Ends, Thinned};
 use crate::head::Head;
 use crate::implantation::Root;
 use crate::parallel;
@@ -36,7 +36,24 @@ impl Ends {
             (limits[index], wisps[index]) = (limits[index].min(left), wisp);
         }
         let cuts = before.map_or(0, |ends| ends.cuts) + 1;
-        Self { limits: limits.into(), wisps: wisps.into(), cuts }
+        let thinned = before.and_then(|ends| ends.thinned.clone());
+        Self { limits: limits.into(), wisps: wisps.into(), cuts, thinned }
+    }
+
+    /// Notes that those of every `stride`-th hair that are shorter than `before` were cut by thinning scissors.
+    pub(super) fn thinned(mut self, before: Option<&Self>, stride: usize) -> Self {
+        let known = self.thinned.as_ref();
+        let mut limits =
+            known.map_or(vec![f32::INFINITY; self.limits.len()], |known| known.limits.to_vec());
+        for (index, thinned) in limits.iter_mut().enumerate().step_by(stride.max(1)) {
+            let earlier = before.map_or(f32::INFINITY, |ends| ends.limits[index]);
+            if self.limits[index] < earlier {
+                *thinned = thinned.min(self.limits[index]);
+            }
+        }
+        let every = known.map_or(1, |known| known.every).max(stride);
+        self.thinned = Some(Thinned { limits: limits.into(), every });
+        self
     }
 
     /// Where the drawn hairs, of all every `stride`-th, have been cut so far: infinite where they have not.
@@ -60,8 +77,12 @@ impl Ends {
     /// Lets hairs grow by the length (m) that each wisp grows by.
     pub(super) fn grown(&self, by: &[f64]) -> Self {
         let grown = |(limit, &wisp): (&f32, &u32)| limit + by[wisp as usize] as f32;
-        let limits = self.limits.iter().zip(self.wisps.iter()).map(grown).collect();
-        Self { limits, wisps: self.wisps.clone(), cuts: self.cuts }
+        let all = |limits: &[f32]| limits.iter().zip(self.wisps.iter()).map(grown).collect();
+        let thinned = self
+            .thinned
+            .as_ref()
+            .map(|known| Thinned { limits: all(&known.limits), every: known.every });
+        Self { limits: all(&self.limits), wisps: self.wisps.clone(), cuts: self.cuts, thinned }
     }
 }
 

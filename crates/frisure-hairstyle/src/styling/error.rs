@@ -40,14 +40,14 @@ pub enum StyleError {
     NothingBeforeEar,
     /// No selected wisp is long enough to be tied or tucked there.
     #[error(
-        "no hair is gathered: the nearest wisp needs {:.1} cm to reach it, and the longest has {:.1} cm",
-        100.0 * needed, 100.0 * longest
+        "no hair is gathered: the wisp that comes nearest needs {:.1} cm to reach it, and has {:.1} cm",
+        100.0 * needed, 100.0 * length
     )]
     NothingGathered {
-        /// Length (m) that the nearest wisp needs.
+        /// Length (m) that the wisp needs which comes nearest.
         needed: f64,
-        /// Length (m) of the longest wisp.
-        longest: f64,
+        /// Its length (m).
+        length: f64,
     },
     /// Hair is held at a point inside the head.
     #[error(

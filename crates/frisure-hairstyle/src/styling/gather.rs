@@ -110,12 +110,17 @@ pub(super) fn gathered(
     let long_enough = |&(i, way): &(usize, f64)| {
         before.guides[i].rod.length() >= way * (1.0 + SLACK) + SHORTEST_TAIL
     };
-    let nearest = ways.iter().map(|(_, way)| *way).fold(f64::INFINITY, f64::min);
+    let lacking = |&(i, way): &(usize, f64)| {
+        let (needed, length) = (way * (1.0 + SLACK) + SHORTEST_TAIL, before.guides[i].rod.length());
+        (needed, length)
+    };
+    let missing = |(needed, length): &(f64, f64)| needed - length;
+    let all = ways.iter().map(lacking);
+    let nearest = all.min_by(|a, b| missing(a).total_cmp(&missing(b)));
     ways.retain(long_enough);
     if ways.is_empty() {
-        let lengths = chosen.iter().map(|&i| before.guides[i].rod.length());
-        let longest = lengths.fold(0.0, f64::max);
-        return Err(StyleError::NothingGathered { needed: nearest + SHORTEST_TAIL, longest });
+        let (needed, length) = nearest.unwrap_or_default();
+        return Err(StyleError::NothingGathered { needed, length });
     }
     // 2. Where in the bundle each lies: the nearest inside.
     ways.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));

@@ -239,3 +239,30 @@ fn thinning_cuts_its_share_of_the_hairs_and_other_hairs_the_next_time() {
     let (first, second) = (share(&once), share(&twice));
     assert!((first - 0.4).abs() < 0.085 && (second - 0.64).abs() < 0.085, "{first} {second}");
 }
+
+#[test]
+fn what_thinning_cuts_off_has_a_mass() {
+    let before = hairstyle("caucasian-straight", 60);
+    let thin = Cut { line: CutLine::Length(0.05), share: 0.6, ..Cut::default() };
+    let thinned = done(&before, &Operation::Cut(thin));
+    let length = |hair: &Hairstyle| {
+        let sum: f64 = hair.guides().iter().map(|guide| guide.rod.length()).sum();
+        sum / hair.guides().len() as f64
+    };
+    // Six in ten have 5 cm; by the luck of 300 hairs 0.085 more or fewer of them.
+    let left = 1.0 - 0.6 * (1.0 - 0.05 / length(&before));
+    assert!((thinned.mass() / before.mass() - left).abs() < 0.085, "{left}");
+    assert!(before.left_by_thinning().iter().all(|left| *left == 1.0));
+    // A cut that is shorter leaves all hairs alike, and a cut that is longer none of the short ones.
+    let to = |length: f64| Operation::Cut(Cut { line: CutLine::Length(length), ..Cut::default() });
+    let short = done(&thinned, &to(0.04));
+    assert!((short.mass() / done(&before, &to(0.04)).mass() - 1.0).abs() < 1e-12);
+    let ten = done(&thinned, &to(0.1));
+    let left = 1.0 - 0.6 * (1.0 - 0.05 / 0.1);
+    assert!((ten.mass() / done(&before, &to(0.1)).mass() - left).abs() < 0.05, "{left}");
+    // All grow by as much.
+    let grown = done(&thinned, &grow(Growth::By(0.02)));
+    let uncut = done(&before, &grow(Growth::By(0.02)));
+    let lost = |long: &Hairstyle, short: &Hairstyle| long.mass() - short.mass();
+    assert!((lost(&uncut, &grown) / lost(&before, &thinned) - 1.0).abs() < 1e-6);
+}

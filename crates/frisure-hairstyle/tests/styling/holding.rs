@@ -6,7 +6,7 @@ use frisure_hairstyle::styling::{
     Tuck, WispState,
 };
 use frisure_hairstyle::{
-    HairContact, Hairstyle, Parting, Place, PredictOptions, StyleOptions, predict, selected,
+    HairContact, Hairstyle, Parting, Place, Pose, PredictOptions, StyleOptions, predict, selected,
     settling_report, style,
 };
 use frisure_rod::Equilibrium;
@@ -50,6 +50,23 @@ fn a_clip_holds_hair_where_it_is_put() {
     let distance = clipped.equilibria()[wisp].tip().distance(to);
     assert!(distance < 0.01, "{distance}");
     assert_eq!(settling_report(&clipped, &HEAD).not_converged, 0);
+}
+
+#[test]
+fn a_braid_hangs_along_gravity() {
+    let tie = Operation::Tie(Tie { to: TiePlace::Low, braided: true, ..Tie::default() });
+    for down in [DVec3::X, DVec3::Z, DVec3::new(0.0, 0.8, -0.6)] {
+        let mut long = spec("caucasian-straight", 20, HairContact::Layers);
+        (long.length.mean, long.pose) = (0.6, Pose::of(down).unwrap());
+        let before = predict(&long, &HEAD, PredictOptions::default(), &()).unwrap();
+        let braided = done(&before, &tie);
+        let mean = |x: f64| {
+            let sum: DVec3 = braided.equilibria().iter().map(|r| r.at(&r.chain(), x).0).sum();
+            sum / braided.equilibria().len() as f64
+        };
+        let hangs = (mean(1.0) - mean(0.6)).normalize().dot(down);
+        assert!(hangs > 0.8, "{down}: {hangs}");
+    }
 }
 
 #[test]
@@ -156,8 +173,8 @@ fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
     let short = predict(&short, &HEAD, PredictOptions::default(), &()).unwrap();
     let error = style(&short, &HEAD, &tie(TiePlace::High), StyleOptions::default(), &());
     let error = error.map(|_| ()).unwrap_err();
-    let StyleError::NothingGathered { needed, longest } = error else { panic!("{error}") };
-    assert!(longest < needed);
+    let StyleError::NothingGathered { needed, length } = error else { panic!("{error}") };
+    assert!(length < needed && (length - 0.01).abs() < 5e-3, "{length} {needed}");
 }
 
 #[test]

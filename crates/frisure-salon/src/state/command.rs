@@ -6,6 +6,7 @@ use frisure::hairstyle::Place;
 use frisure::hairstyle::styling::Operation;
 use glam::DVec3;
 
+use super::combing::CombStroke;
 use super::cut_plane::CutPlane;
 use super::jobs::Destination;
 use super::rendering::RenderTask;
@@ -73,11 +74,10 @@ pub enum Command {
     Apply(Operation),
     /// Wets the selected hair, or dries it if it is wet.
     ToggleWet,
-    /// Combs hair with roots near positions on the skin along a direction (m), while the stroke is still drawn: the next one, or
-    /// [`Self::Stroke`], takes its place.
-    DragStroke(Vec<DVec3>, DVec3),
-    /// Combs hair with roots near positions on the skin along a direction (m).
-    Stroke(Vec<DVec3>, DVec3),
+    /// Combs the selected hair beneath a stroke that is still drawn: the next one, or [`Self::Comb`], takes its place.
+    DragComb(CombStroke),
+    /// Combs the selected hair beneath a stroke.
+    Comb(CombStroke),
     /// Moves the cutting plane.
     Plane(CutPlane),
     /// Sets scissors and clippers.

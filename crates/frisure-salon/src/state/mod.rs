@@ -5,6 +5,7 @@
 //! queue [`Effect`]s for the program around them. Nothing here uses a toolkit, a thread or a clock, so tests
 //! can run whole sessions, and the window, the page and the keyboard use the same commands.
 
+mod combing;
 mod command;
 mod controls;
 mod cut_plane;
@@ -32,6 +33,7 @@ mod tour;
 mod tour_steps;
 mod update;
 
+pub use combing::{CombPlace, CombStroke};
 pub use command::Command;
 pub use controls::{CHOICES, CONTROLS, Choice, Control, choice_of, control_of, panel_title};
 pub use cut_plane::{CutPlane, CutPreview};

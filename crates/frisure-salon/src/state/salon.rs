@@ -63,6 +63,8 @@ pub struct Salon {
     pub(super) cut_preview: Option<(u64, CutPlane, Arc<CutPreview>)>,
     /// The brush.
     pub brush: Brush,
+    /// The hair as it lay when the stroke of the comb began that is being drawn.
+    pub(super) combing: Option<Arc<Preview>>,
     /// The sections of the current text.
     pub sections: Vec<Section>,
     /// The hair, and the one that is shown beside it, without hidden sections.

@@ -8,6 +8,7 @@ use frisure::hairstyle::styling::{
 use frisure::scene::edit;
 use glam::{DVec3, Vec3};
 
+use super::combing::CombStroke;
 use super::command::Command;
 use super::cut_plane::{CutPlane, CutPreview, rounded};
 use super::salon::{Salon, Tool, parse};
@@ -27,6 +28,7 @@ impl Salon {
         }
         // A stroke of the comb that has not ended belongs to no other tool.
         if tool != self.tool {
+            self.combing = None;
             self.drop_draft();
         }
         self.tool = tool;
@@ -107,19 +109,18 @@ impl Salon {
             Selection::Everything => part,
             selection => Selection::All(vec![selection.clone(), part]),
         };
-        let draft = matches!(command, Command::DragStroke(..));
+        let draft = matches!(command, Command::DragComb(_));
         let operation = match command {
             Command::Apply(operation) => operation.on(selection),
             Command::ToggleWet if self.is_wet() => Operation::from(Dry::default()).on(selection),
             Command::ToggleWet => Operation::from(Wet::default()).on(selection),
-            Command::Stroke(ref places, direction) | Command::DragStroke(ref places, direction) => {
-                let (Some(direction), Some(under)) =
-                    (direction.try_normalize(), self.under_brush(places))
-                else {
-                    // Back where it began, it has combed nothing.
-                    return self.drop_draft();
-                };
-                comb(Direction::Along(rounded(direction, 1e-3))).on(within(under))
+            Command::Comb(ref stroke) | Command::DragComb(ref stroke) => {
+                let combed = self.combed(stroke);
+                if !draft {
+                    self.combing = None;
+                }
+                let Some((comb, wisps)) = combed else { return self.drop_draft() };
+                comb.on(within(Selection::Wisps(wisps)))
             }
             Command::Lift(places) => {
                 let Some(under) = self.under_brush(&places) else { return };
@@ -171,6 +172,18 @@ impl Salon {
             return None;
         }
         Some((self.scissors.at_plane(point, normal), wisps))
+    }
+
+    /// What a stroke of the comb does, and the wisps that it takes; `None` for one that ends where it began, or takes none.
+    fn combed(&mut self, stroke: &CombStroke) -> Option<(Operation, Vec<usize>)> {
+        // Of the hair as it lay when the stroke began: what follows the comb must not bring it more.
+        if self.combing.is_none() {
+            self.combing = self.drawn().map(|(hair, _)| hair);
+        }
+        let direction = rounded(stroke.direction(&self.orbit)?, 1e-3);
+        let strands = &self.combing.as_ref()?.strands;
+        let wisps = stroke.wisps(&self.orbit, self.brush.radius, strands);
+        (!wisps.is_empty()).then(|| (comb(Direction::Along(direction)), wisps))
     }
 
     /// The top of the head (m).

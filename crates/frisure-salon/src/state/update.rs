@@ -80,8 +80,8 @@ impl Salon {
             Command::ToggleMirror => self.mirror = !self.mirror,
             Command::Apply(_)
             | Command::ToggleWet
-            | Command::DragStroke(..)
-            | Command::Stroke(..)
+            | Command::DragComb(_)
+            | Command::Comb(_)
             | Command::Cut
             | Command::Snip(_)
             | Command::Lift(_)

@@ -22,17 +22,19 @@ use super::ndc::{aspect, from_ndc, to_ndc};
 use super::renderer::{Pane, Picture, Side, Versioned, View};
 use super::{automation, overlay, theme, widgets};
 use crate::locale::tr;
-use crate::state::{Command, CutPlane, Exercise, Salon, Snip, Tool, Way};
+use crate::state::{CombPlace, CombStroke, Command, CutPlane, Exercise, Salon, Snip, Tool, Way};
 
 /// The state of the viewport between frames.
 #[derive(Default)]
 pub(super) struct Viewport {
     /// Corners of the lasso that is being drawn (points of the window).
     lasso: Vec<Pos2>,
-    /// Hits of the brush or comb stroke that is being drawn (m).
+    /// Hits of the brush stroke that is being drawn (m).
     stroke: Vec<DVec3>,
-    /// Where the comb was (m) when the hair was last told to follow it.
-    followed: Option<DVec3>,
+    /// Where the comb has been in the stroke that is being drawn.
+    combed: Vec<CombPlace>,
+    /// Where it was (points of the window) when the hair was last told to follow it.
+    followed: Option<Pos2>,
     /// Time of the last motion (s).
     last_motion: f64,
     /// Fraction of the strands drawn during motion.
@@ -82,7 +84,7 @@ const REST: f64 = 0.25;
 /// Chosen: a third of a second is felt as a halt.
 const PATIENCE: f32 = 0.15;
 
-/// Way of the comb, in radii, after which hair follows it anew. Chosen: that of the spots that a stroke is made of.
+/// Way of the comb, in radii, after which hair follows it anew. Chosen.
 const FOLLOWING: f64 = 1.0 / 3.0;
 
 /// Minimum number of strands drawn during motion. Chosen by trial.
@@ -285,12 +287,17 @@ impl Viewport {
                 self.lasso.truncate(1);
                 self.lasso.push(at);
             }
-            tool if tool.is_brush() && (drags || response.clicked()) => {
-                self.stroke.extend(hit());
-                if tool == Tool::Comb {
-                    self.follow_comb(salon.brush.radius, out);
+            Tool::Comb if drags => {
+                self.combed.push(CombPlace { at: to_ndc(at, rect), skin: hit() });
+                let radius = salon.brush.radius / view_height(salon) * f64::from(rect.height());
+                let before = *self.followed.get_or_insert(at);
+                if f64::from(before.distance(at)) > FOLLOWING * radius {
+                    self.followed = Some(at);
+                    let path = self.combed.clone();
+                    out.push(Command::DragComb(CombStroke { path, aspect: aspect(rect) }));
                 }
             }
+            tool if tool.is_brush() && (drags || response.clicked()) => self.stroke.extend(hit()),
             Tool::Cut if drags => {
                 let delta = response.drag_delta() / rect.height();
                 let mut plane = salon.plane;
@@ -312,20 +319,12 @@ impl Viewport {
         }
     }
 
-    /// Lets the hair follow the comb once it has moved by a share of its radius (m).
-    fn follow_comb(&mut self, radius: f64, out: &mut Vec<Command>) {
-        let [from, .., to] = self.stroke[..] else { return };
-        if self.followed.unwrap_or(from).distance(to) > FOLLOWING * radius {
-            self.followed = Some(to);
-            out.push(Command::DragStroke(self.stroke.clone(), to - from));
-        }
-    }
-
     /// Turns the drawn lasso or stroke into a command.
     fn finish_stroke(&mut self, ui: &Ui, rect: Rect, salon: &Salon, out: &mut Vec<Command>) {
         let mode = widgets::select_mode(ui);
         let lasso = std::mem::take(&mut self.lasso);
         let stroke = std::mem::take(&mut self.stroke);
+        let path = std::mem::take(&mut self.combed);
         self.followed = None;
         match salon.tool {
             Tool::Lasso if lasso.len() >= 3 => {
@@ -343,9 +342,8 @@ impl Viewport {
             Tool::Brush if !stroke.is_empty() => out.push(Command::Paint(stroke, mode)),
             Tool::Lift if !stroke.is_empty() => out.push(Command::Lift(stroke)),
             Tool::Clippers if !stroke.is_empty() => out.push(Command::Clip(stroke)),
-            Tool::Comb if stroke.len() >= 2 => {
-                let direction = stroke[stroke.len() - 1] - stroke[0];
-                out.push(Command::Stroke(stroke, direction));
+            Tool::Comb if path.len() >= 2 => {
+                out.push(Command::Comb(CombStroke { path, aspect: aspect(rect) }));
             }
             _ => {}
         }
@@ -471,10 +469,9 @@ impl Viewport {
         if salon.tool == Tool::Lift {
             overlay::lifted(ui, salon, rect, pointer);
         }
-        for place in &self.stroke {
-            if let Some(at) = salon.orbit.project(*place, aspect(rect)) {
-                painter.circle_filled(from_ndc(at, rect), 2.5, theme::ACCENT);
-            }
+        let on_skin = self.stroke.iter().filter_map(|p| salon.orbit.project(*p, aspect(rect)));
+        for at in on_skin.chain(self.combed.iter().map(|place| place.at)) {
+            painter.circle_filled(from_ndc(at, rect), 2.5, theme::ACCENT);
         }
     }
 }

@@ -112,7 +112,12 @@ pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
         // Of a helix, neither is larger than the radius inverted.
         if !(curl.strain.abs().max_element() <= CURLIEST) {
             let (quantity, value) = ("curl radius", radius.unwrap_or(preset.0));
-            let error = InvalidQuantity { quantity, value, unit: "m", allowed: "at least 10 um" };
+            let error = InvalidQuantity {
+                quantity,
+                value,
+                unit: "m",
+                allowed: "at least 10 um, unless `pitch` is longer",
+            };
             return Err(quantity_error(&error, document.source));
         }
     }

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use frisure::files::Files;
+use frisure::files::frame::FrameChoice;
 use frisure::formats::{picture, report};
 use frisure::hairstyle::{Checkpoint, DrawnHair, StrandOptions, add_sections, penetration};
 use frisure::look::EnvironmentMap;
@@ -72,8 +73,10 @@ pub(crate) fn run_scene(
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.
     let missed = requested && report.guides.accuracy_missed > 0;
     // A guide on a saddle is not at rest either, nor is a hair that others push on.
-    let contact = report.simulated.as_ref().and_then(|simulated| simulated.contact.as_ref());
-    let unbalanced = contact.map_or(0, |contact| contact.hairs - contact.balanced);
+    let unbalanced = report.simulated.as_ref().map_or(0, |simulated| match &simulated.contact {
+        Some(contact) => contact.hairs - contact.balanced,
+        None => simulated.hairs - simulated.stable,
+    });
     Ok(match report.guides.not_converged + report.guides.saddles + unbalanced {
         0 if missed || report.guides.undecided > 0 => ExitStatus::Uncertain,
         0 => ExitStatus::Success,
@@ -94,6 +97,9 @@ fn work(arguments: &Predict, scene: &Scene) -> Work {
 /// Checks what the files are asked to hold.
 fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
     grooms::check(&arguments.outputs, arguments.writing)?;
+    if arguments.outputs.is_empty() {
+        check_without_grooms(arguments)?;
+    }
     if arguments.time_samples {
         grooms::check_motion(&arguments.outputs)?;
     }
@@ -112,6 +118,30 @@ fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
             options.check().map_err(|e| Error::because(&e, ""))?;
             noise_filter(arguments.tracing.denoise)?;
         }
+    }
+    Ok(())
+}
+
+/// Refuses what says how grooms are written where none is.
+fn check_without_grooms(arguments: &Predict) -> Result<(), Error> {
+    let Predict { writing, fibres, accessories, .. } = arguments;
+    let options = [
+        (writing.content.is_some(), "--content"),
+        (writing.points.is_some(), "--points"),
+        (writing.max_points.is_some(), "--max-points"),
+        (writing.hairs.is_some(), "--hairs"),
+        (writing.program.is_some(), "--for"),
+        (writing.axes.choice() != FrameChoice::default(), "--unit` and `--up"),
+        (*fibres, "--fibres"),
+        (*accessories, "--accessories"),
+    ];
+    if let Some((_, name)) = options.into_iter().find(|(given, _)| *given) {
+        let message = format!("`{name}` is for grooms, and none is written");
+        return Err(Error::invalid(message, "add `-o hair.hair`"));
+    }
+    if arguments.each_step && arguments.image.is_none() {
+        let message = "`--each-step` writes grooms and pictures, and none is asked for";
+        return Err(Error::invalid(message, "add `-o hair.hair` or `--image hair.png`"));
     }
     Ok(())
 }

@@ -50,8 +50,9 @@ pub(super) fn summary(
     if let (1.., Resolution::Accuracy(accuracy)) =
         (guides.accuracy_missed, spec.equilibrium.resolution)
     {
-        let _ =
-            write!(out, ", {} less accurate than {:?} mm", guides.accuracy_missed, 1e3 * accuracy);
+        // Without the last digits, which are those of the conversion.
+        let mm: f64 = format!("{:.9e}", 1e3 * accuracy).parse().unwrap_or(1e3 * accuracy);
+        let _ = write!(out, ", {} less accurate than {mm:?} mm", guides.accuracy_missed);
     }
     let buried = buried(report, spec);
     let replicas = guides.replicas.as_ref().map(replicas_line).unwrap_or_default();
@@ -191,7 +192,7 @@ fn way_out(spec: &HairstyleSpec) -> &'static str {
         }
         // What sinks in is mostly a curl between the nodes of a coarse division.
         (Body::SignedDistance, Resolution::Accuracy(_)) => {
-            "a smaller `equilibrium.accuracy` may lift it"
+            "a smaller `equilibrium.accuracy` may lift it, or a larger `contact.stiffness`, which says how far hair sinks into skin"
         }
         (Body::SignedDistance, Resolution::Elements(_)) => {
             "more `equilibrium.elements`, or `accuracy` instead, may lift it"

@@ -183,7 +183,11 @@ impl Apply for Cut {
             };
             left - before_line
         };
-        styling.ends = Some(Ends::cut(hair, head, stride, &chosen, left));
+        let ends = Ends::cut(hair, head, stride, &chosen, left);
+        styling.ends = Some(match self.share {
+            share if share < 1.0 => ends.thinned(hair.styling.ends.as_ref(), stride),
+            _ => ends,
+        });
         if scissors.hanging() {
             return act.with(styling);
         }
