@@ -1,7 +1,9 @@
 //! Cutting, trimming, thinning.
 
 use frisure_hairstyle::head::Region;
-use frisure_hairstyle::styling::{Cut, CutLine, Height, Held, Operation, Selection, StyleError};
+use frisure_hairstyle::styling::{
+    Cut, CutLine, Growth, Height, Held, Operation, Selection, StyleError,
+};
 use frisure_hairstyle::{
     Curl, HairContact, Hairstyle, Place, PredictOptions, StrandOptions, StyleOptions, predict,
     selected, strands, style,
@@ -261,8 +263,8 @@ fn what_thinning_cuts_off_has_a_mass() {
     let left = 1.0 - 0.6 * (1.0 - 0.05 / 0.1);
     assert!((ten.mass() / done(&before, &to(0.1)).mass() - left).abs() < 0.05, "{left}");
     // All grow by as much.
-    let grown = done(&thinned, &grow(Growth::By(0.02)));
-    let uncut = done(&before, &grow(Growth::By(0.02)));
+    let grown = done(&thinned, &crate::grow(Growth::By(0.02)));
+    let uncut = done(&before, &crate::grow(Growth::By(0.02)));
     let lost = |long: &Hairstyle, short: &Hairstyle| long.mass() - short.mass();
     assert!((lost(&uncut, &grown) / lost(&before, &thinned) - 1.0).abs() < 1e-6);
 }
