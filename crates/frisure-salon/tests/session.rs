@@ -214,7 +214,7 @@ fn a_brush_selects_the_hair_rooted_under_it() {
     world.run(Command::Paint(vec![top], SelectMode::Replace));
     let hair = world.salon.preview().unwrap().0.clone();
     for (root, selected) in hair.roots.iter().zip(world.salon.selected.wisps.as_ref().unwrap()) {
-        let root = glam::Vec3::from_array(*root).as_dvec3();
+        let root = Vec3::from_array(*root).as_dvec3();
         assert_eq!(root.distance(top) < 0.05, *selected, "{root}");
     }
 }
@@ -308,7 +308,7 @@ fn an_isolated_hair_has_orthonormal_frames() {
     let hair = world.salon.isolated.as_ref().unwrap().hair.clone().expect("a hair");
     assert_eq!(hair.wisp, 7);
     for frame in &hair.frames {
-        let [a, b, t] = frame.map(glam::Vec3::from_array);
+        let [a, b, t] = frame.map(Vec3::from_array);
         assert!(a.dot(b).abs() < 1e-4 && a.cross(b).distance(t) < 1e-4);
     }
     world.run(Command::Isolate(Some(100_000)));

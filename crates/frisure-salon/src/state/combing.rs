@@ -57,6 +57,12 @@ impl CombStroke {
         way.try_normalize()
     }
 
+    /// Whether the comb ended on the head, where it presses hair to the skin.
+    #[must_use]
+    pub fn ends_on_skin(&self) -> bool {
+        self.path.last().is_some_and(|place| place.skin.is_some())
+    }
+
     /// The wisps that a comb of a radius (m) takes: those of which it has passed over enough strands, before the head and not below
     /// the reach of its teeth.
     #[must_use]
@@ -64,6 +70,10 @@ impl CombStroke {
         let count = strands.guide.iter().max().map_or(0, |most| *most as usize + 1);
         let view = View::new(orbit);
         let places = self.places(&view);
+        let end = |of: fn(f64, f64) -> f64, from: f64| {
+            [0, 1].map(|axis| places.iter().map(|place| place.at[axis]).fold(from, of))
+        };
+        let (low, high) = (end(f64::min, f64::INFINITY), end(f64::max, f64::NEG_INFINITY));
         let (points, _) = strands.points.as_chunks::<3>();
         let stride = strands.guide.len().div_ceil(LOOKED_AT).max(1);
         let mut looked_at = vec![0_u32; count];
@@ -78,6 +88,12 @@ impl CombStroke {
                     continue;
                 };
                 let reach = radius / (depth * view.tan);
+                // Most hair is far from the stroke.
+                let apart =
+                    |axis: usize| at[axis] < low[axis] - reach || at[axis] > high[axis] + reach;
+                if apart(0) || apart(1) {
+                    continue;
+                }
                 for (i, place) in places.iter().enumerate() {
                     let near = (at[0] - place.at[0]).hypot(at[1] - place.at[1]) < reach;
                     if near && depth < place.skin + IN_SKIN {

@@ -115,7 +115,10 @@ impl Salon {
             Command::ToggleWet if self.is_wet() => Operation::from(Dry::default()).on(selection),
             Command::ToggleWet => Operation::from(Wet::default()).on(selection),
             Command::Comb(ref stroke) | Command::DragComb(ref stroke) => {
-                let combed = self.combed(stroke);
+                // In the hand it stays where the comb is. Pressed on the head it is held there; beside the head the comb lets go of it, and
+                // what friction does not hold slides back.
+                let hold = draft || stroke.ends_on_skin();
+                let combed = self.combed(stroke, hold);
                 if !draft {
                     self.combing = None;
                 }
@@ -175,7 +178,7 @@ impl Salon {
     }
 
     /// What a stroke of the comb does, and the wisps that it takes; `None` for one that ends where it began, or takes none.
-    fn combed(&mut self, stroke: &CombStroke) -> Option<(Operation, Vec<usize>)> {
+    fn combed(&mut self, stroke: &CombStroke, hold: bool) -> Option<(Operation, Vec<usize>)> {
         // Of the hair as it lay when the stroke began: what follows the comb must not bring it more.
         if self.combing.is_none() {
             self.combing = self.drawn().map(|(hair, _)| hair);
@@ -183,7 +186,7 @@ impl Salon {
         let direction = rounded(stroke.direction(&self.orbit)?, 1e-3);
         let strands = &self.combing.as_ref()?.strands;
         let wisps = stroke.wisps(&self.orbit, self.brush.radius, strands);
-        (!wisps.is_empty()).then(|| (comb(Direction::Along(direction)), wisps))
+        (!wisps.is_empty()).then(|| (combing(Direction::Along(direction), hold), wisps))
     }
 
     /// The top of the head (m).
@@ -253,8 +256,12 @@ impl Salon {
 /// An operation that combs hair in a direction and holds it there.
 #[must_use]
 pub fn comb(towards: Direction) -> Operation {
+    combing(towards, true)
+}
+
+fn combing(towards: Direction, hold: bool) -> Operation {
     let selection = Selection::Everything;
-    Operation::Comb(Comb { selection, towards, strength: Comb::STRENGTH, hold: true })
+    Operation::Comb(Comb { selection, towards, strength: Comb::STRENGTH, hold })
 }
 
 impl Salon {
