@@ -216,7 +216,7 @@ fn partings_that_are_no_lines_are_refused() {
 fn regions_have_directions_and_lengths_of_their_own() {
     let fringe = RegionStyle {
         places: vec![Place::Region(crate::head::Region::Fringe)],
-        length: Some(crate::spec::RegionLength::DownTo(crate::spec::Level::Brows)),
+        length: Some(RegionLength::DownTo(crate::spec::Level::Brows)),
         comb: Some(Comb::Forward),
         ..RegionStyle::default()
     };
@@ -237,7 +237,7 @@ fn regions_have_directions_and_lengths_of_their_own() {
 fn hair_cut_to_the_chin_is_not_caught_on_an_ear() {
     let all = RegionStyle {
         places: vec![Place::Everywhere],
-        length: Some(crate::spec::RegionLength::DownTo(crate::spec::Level::Chin)),
+        length: Some(RegionLength::DownTo(crate::spec::Level::Chin)),
         ..RegionStyle::default()
     };
     let layout = layout(Flow::Parted { offset: 0.0 }, |s| s.regions = vec![all]);
