@@ -27,7 +27,15 @@ fn plain(text: &str) -> String {
 
 /// Writes a document, every byte of it, to standard output. A closed pipe (`frisure presets | head -1`) is no error.
 pub(crate) fn print(text: &str) -> Result<(), Error> {
-    let mut out = io::stdout().lock();
+    print_to(io::stdout().lock(), text)
+}
+
+/// The same of a text with colours, without them where they are not wanted: in files, with `NO_COLOR`.
+pub(crate) fn print_coloured(text: &str) -> Result<(), Error> {
+    print_to(anstream::stdout().lock(), text)
+}
+
+fn print_to(mut out: impl Write, text: &str) -> Result<(), Error> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             let hint = "what the command wrote to files is there; let standard output go elsewhere";

@@ -16,7 +16,6 @@ mod pictures;
 mod progress;
 
 use std::ffi::OsString;
-use std::io::{IsTerminal, stdout};
 
 use clap::Parser;
 
@@ -40,10 +39,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => {
             // What was asked for, such as the help, is a document as any other.
             if !error.use_stderr() {
-                let text = error.render();
-                let text =
-                    if stdout().is_terminal() { text.ansi().to_string() } else { text.to_string() };
-                return match console::print(&text) {
+                return match console::print_coloured(&error.render().ansi().to_string()) {
                     Ok(()) => ExitStatus::Success.into(),
                     Err(error) => {
                         console::show_error(&error);
