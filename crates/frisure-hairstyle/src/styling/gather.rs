@@ -107,17 +107,13 @@ pub(super) fn gathered(
     let mut ways: Vec<(usize, f64)> = parallel::map_slice(&chosen, |&i| {
         (i, taut_length(head, before.guides[i].root.position, middle, LYING))
     });
-    let long_enough = |&(i, way): &(usize, f64)| {
-        before.guides[i].rod.length() >= way * (1.0 + SLACK) + SHORTEST_TAIL
+    let needed_and_has = |&(i, way): &(usize, f64)| {
+        (way * (1.0 + SLACK) + SHORTEST_TAIL, before.guides[i].rod.length())
     };
-    let lacking = |&(i, way): &(usize, f64)| {
-        let (needed, length) = (way * (1.0 + SLACK) + SHORTEST_TAIL, before.guides[i].rod.length());
-        (needed, length)
-    };
-    let missing = |(needed, length): &(f64, f64)| needed - length;
-    let all = ways.iter().map(lacking);
-    let nearest = all.min_by(|a, b| missing(a).total_cmp(&missing(b)));
-    ways.retain(long_enough);
+    let missing = |(needed, has): (f64, f64)| needed - has;
+    let lengths = ways.iter().map(needed_and_has);
+    let nearest = lengths.min_by(|a, b| missing(*a).total_cmp(&missing(*b)));
+    ways.retain(|way| missing(needed_and_has(way)) <= 0.0);
     if ways.is_empty() {
         let (needed, length) = nearest.unwrap_or_default();
         return Err(StyleError::NothingGathered { needed, length });
