@@ -52,7 +52,9 @@ fn retention(before: &Hairstyle, held: &Hairstyle, after: &Hairstyle) -> f64 {
 fn combed_and_let_go(contact: HairContact, friction: f64, seed: u64) -> (Hairstyle, f64) {
     let spec = HairstyleSpec { seed, ..spec("caucasian-straight", 40, contact, friction) };
     let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
-    let (held, after) = (combed(&before, true), combed(&before, false));
+    let held = combed(&before, true);
+    let after = style(&held, &HEAD, &Release::default().into(), StyleOptions::default(), &());
+    let after = after.unwrap();
     let kept = retention(&before, &held, &after);
     (after, kept)
 }
@@ -103,7 +105,7 @@ fn the_number_of_threads_changes_no_bit() {
 
 #[test]
 fn all_wisps_together_agree_with_friction() {
-    let mut spec = spec("caucasian-wavy", 30, HairContact::Wisps, 0.3);
+    let mut spec = spec("caucasian-wavy", 20, HairContact::Wisps, 0.3);
     spec.equilibrium.method = HeadMethod::Continuation;
     let together = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let report = settling_report(&together, &HEAD);
@@ -116,7 +118,7 @@ fn all_wisps_together_agree_with_friction() {
     let pairs = together.equilibria().iter().zip(longer.equilibria());
     let mut moves: Vec<f64> = pairs.map(|(a, b)| a.tip().distance(b.tip())).collect();
     moves.sort_by(f64::total_cmp);
-    assert!(moves[15] < 5e-5, "{moves:?}");
+    assert!(moves[10] < 5e-5, "{moves:?}");
 }
 
 #[test]

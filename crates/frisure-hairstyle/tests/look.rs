@@ -97,7 +97,7 @@ fn a_parting_is_a_line() {
 fn hair_stays_on_its_side_of_a_parting() {
     const OFFSET: f64 = 0.035;
     for (name, seed) in [("caucasian-straight", 3), ("caucasian-wavy", 1), ("caucasian-wavy", 4)] {
-        let mut spec = spec(name, 300, 600);
+        let mut spec = spec(name, 250, 500);
         spec.seed = seed;
         spec.implantation.flow = Flow::Parted { offset: OFFSET };
         let marks = head().landmarks();

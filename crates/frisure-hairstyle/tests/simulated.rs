@@ -214,13 +214,13 @@ fn in_contact(name: &str, hairs: usize, friction: f64) -> HairstyleSpec {
 fn hairs_in_contact_push_equally() {
     let head = Head::mannequin();
     for (name, friction) in [("straight", 0.3), ("curly", 0.0)] {
-        let spec = in_contact(name, 300, friction);
+        let spec = in_contact(name, 200, friction);
         let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
         let drawn = draw(&hairstyle, &head, StrandOptions::default(), &()).unwrap();
         let certificate = drawn.simulation.contact.unwrap();
         assert!(certificate.contacts > 100 && certificate.imbalance < 1e-9, "{certificate:?}");
         assert_eq!(certificate.friction_ratio > 0.0, friction > 0.0);
-        assert!((certificate.represented - hairstyle.grown() / 300.0).abs() < 1e-9);
+        assert!((certificate.represented - hairstyle.grown() / 200.0).abs() < 1e-9);
         out_of(&head, &drawn.strands, name);
     }
 }
@@ -228,7 +228,7 @@ fn hairs_in_contact_push_equally() {
 #[test]
 fn hairs_in_contact_are_the_same_whatever_the_number_of_threads() {
     let head = Head::mannequin();
-    let spec = in_contact("wavy", 150, 0.4);
+    let spec = in_contact("wavy", 100, 0.4);
     let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -242,7 +242,7 @@ fn hairs_in_contact_are_the_same_whatever_the_number_of_threads() {
 #[test]
 fn hairs_in_contact_can_be_cancelled_and_are_not_saved() {
     let head = Head::mannequin();
-    let spec = in_contact("straight", 200, 0.3);
+    let spec = in_contact("straight", 120, 0.3);
     let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
     let token = frisure_progress::CancellationToken::default();
     token.cancel();

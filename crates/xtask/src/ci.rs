@@ -76,8 +76,8 @@ fn other_builds(gate: &Gate) -> Result<()> {
         shell_beside("cargo package --workspace --no-verify --allow-dirty --locked --quiet")
     })?;
     gate.step("mutated files", || {
-        // About two minutes; the tests have made a shorter run of it.
-        shell_beside("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
+        // About a minute; the tests have made a shorter run of it.
+        shell_beside("FRISURE_MUTATIONS=10000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
     })
 }
 

@@ -15,6 +15,8 @@ use crate::random::{Purpose, Stream};
 pub(super) struct FacialLines {
     /// Middle of the brow.
     pub(super) brow: Vec<DVec3>,
+    /// Height and number of hairs of a brow over those of a thin one.
+    pub(super) fullness: f64,
     /// Edge of the upper lid.
     pub(super) upper: Vec<DVec3>,
     /// Edge of the lower lid.
@@ -28,16 +30,16 @@ pub(super) struct FacialLines {
 /// Points of a hair.
 const POINTS: usize = 6;
 
-/// Hairs of a brow, lashes of an upper and of a lower lid.
-const COUNTS: [usize; 3] = [480, 150, 70];
+/// Hairs of a thin brow, lashes of an upper and of a lower lid.
+const COUNTS: [u32; 3] = [480, 150, 70];
 
 /// Short lashes of an upper lid beside the others: they make its edge dark.
-const SHORT_LASHES: usize = 110;
+const SHORT_LASHES: u32 = 110;
 
 /// Width of the edge of a lid that lashes grow on (m).
 const LID_EDGE: f64 = 1.0e-3;
 
-/// Half the height of a brow at its inner and its outer end (m).
+/// Half the height of a thin brow at its inner and its outer end (m).
 const BROW: [f64; 2] = [4.8e-3, 2.2e-3];
 
 /// Radius at the root of hairs of the brow and of lashes (m).
@@ -60,7 +62,7 @@ pub(super) fn grown(features: Features, lines: &FacialLines, skin: &SignedDistan
             strands.push(&points, &taper);
         };
         let [brow, upper, lower] = COUNTS;
-        for _ in 0..brow {
+        for _ in 0..(f64::from(brow) * lines.fullness) as u32 {
             push(&mut brows, brow_hair(lines, skin, &mut random), RADII[0]);
         }
         for n in 0..upper + SHORT_LASHES {
@@ -84,7 +86,8 @@ fn brow_hair(lines: &FacialLines, skin: &SignedDistance, random: &mut Stream) ->
     // Dense to both edges: half uniform, half the mean of two.
     let across = random.unit() + 0.5 * (random.unit() + random.unit()) - 1.0;
     let [inner, outer] = BROW;
-    let half = (inner + (outer - inner) * t) * (1.0 - 0.5 * (1.0 - 8.0 * t).max(0.0));
+    let half =
+        lines.fullness * (inner + (outer - inner) * t) * (1.0 - 0.5 * (1.0 - 8.0 * t).max(0.0));
     let (centre, along) = on_line(&lines.brow, t);
     let root = centre + DVec3::Z * (half * across);
     // From 65° above the brow's line at its inner end to none at 0.4 of it; hairs of both edges lean to its middle.

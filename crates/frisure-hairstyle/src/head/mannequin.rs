@@ -66,6 +66,7 @@ pub(crate) fn features(surface: &Surface, skin: &SignedDistance) -> Features {
         .map(|a: f64| place(3.2 + 1.5 * a, 8.4 - 0.3 * (a + 0.3).powi(2), -1.63 + 0.4 * a * a));
     let lines = FacialLines {
         brow: brow.map(|(x, y, z)| place(x, y, z)).collect(),
+        fullness: 1.0,
         upper: lid.to_vec(),
         lower: Vec::new(),
         eye: dvec3(0.032, -0.0685, -0.0105),

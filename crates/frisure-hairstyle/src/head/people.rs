@@ -13,13 +13,26 @@ use super::subdivide::Quads;
 /// Faces, and the tints of vertices.
 const TOPOLOGY: &[u8] = include_bytes!("../../heads/topology.bin");
 
-/// Names of the heads, and their files.
-const PEOPLE: [(&str, &[u8]); 4] = [
-    ("african-woman", include_bytes!("../../heads/african-woman.bin")),
-    ("asian-man", include_bytes!("../../heads/asian-man.bin")),
-    (FIRST, include_bytes!("../../heads/european-woman.bin")),
-    ("older-man", include_bytes!("../../heads/older-man.bin")),
+/// Names of the heads, their files, and their looks.
+const PEOPLE: [(&str, &[u8], Looks); 4] = [
+    (
+        "african-woman",
+        include_bytes!("../../heads/african-woman.bin"),
+        Looks { brows: 1.3, lips: 1.0 },
+    ),
+    ("asian-man", include_bytes!("../../heads/asian-man.bin"), Looks { brows: 1.6, lips: 0.55 }),
+    (FIRST, include_bytes!("../../heads/european-woman.bin"), Looks { brows: 1.25, lips: 1.0 }),
+    ("older-man", include_bytes!("../../heads/older-man.bin"), Looks { brows: 1.8, lips: 0.45 }),
 ];
+
+/// What differs between people beside their shapes. Chosen by eye.
+#[derive(Clone, Copy)]
+struct Looks {
+    /// How full the brows are ([`FacialLines::fullness`]).
+    brows: f64,
+    /// The red of lips, over that of the file.
+    lips: f32,
+}
 
 /// The head that the files of the others have the difference from.
 const FIRST: &str = "european-woman";
@@ -32,7 +45,7 @@ const BALL: [u32; 2] = [24, 36];
 
 /// The names.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    PEOPLE.iter().map(|(name, _)| *name)
+    PEOPLE.iter().map(|(name, ..)| *name)
 }
 
 /// The mesh of a person (m) without features but the eyes' balls and tints, and where its hairs grow.
@@ -45,15 +58,16 @@ pub(super) struct Person {
 impl Person {
     /// A person by name.
     pub(super) fn named(name: &str) -> Option<Self> {
-        let mut file = Reader(file_of(name)?);
+        let (file, looks) = entry(name)?;
+        let mut file = Reader(file);
         let (low, high) = (file.point(), file.point());
         let radius = f64::from(file.f32());
         let eye = file.point();
         let [upper, lower, brow] = LINES.map(|n| (0..n).map(|_| file.point()).collect());
-        let lines = FacialLines { brow, upper, lower, eye, middle: 0.0 };
+        let lines = FacialLines { brow, fullness: looks.brows, upper, lower, eye, middle: 0.0 };
         let mut places = file.columns::<3>(vertices());
         if name != FIRST {
-            let mut first = Reader(file_of(FIRST)?);
+            let mut first = Reader(entry(FIRST)?.0);
             first.0 = &first.0[HEADING..];
             let base = first.columns::<3>(vertices());
             places.iter_mut().zip(base).for_each(|(x, y)| {
@@ -63,7 +77,8 @@ impl Person {
         let cage = cage(&places, low, high);
         let fine = cage.subdivided();
         let mut positions: Vec<DVec3> = fine.values.iter().map(|v| v.place.as_dvec3()).collect();
-        let mut tints: Vec<Tint> = fine.values.iter().map(|v| v.tint).collect();
+        let tint = |v: &Corner| Tint { lips: looks.lips * v.tint.lips, ..v.tint };
+        let mut tints: Vec<Tint> = fine.values.iter().map(tint).collect();
         let mut triangles: Vec<[u32; 3]> =
             fine.faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
         let eyes = [eye, eye * DVec3::new(-1.0, 1.0, 1.0)].map(|centre| Eye {
@@ -107,9 +122,9 @@ impl std::ops::Mul<f32> for Corner {
     }
 }
 
-/// The file of a head.
-fn file_of(name: &str) -> Option<&'static [u8]> {
-    PEOPLE.iter().find(|person| person.0 == name).map(|person| person.1)
+/// The file of a head, and its looks.
+fn entry(name: &str) -> Option<(&'static [u8], Looks)> {
+    PEOPLE.iter().find(|person| person.0 == name).map(|&(_, file, looks)| (file, looks))
 }
 
 /// Bytes of a file before its vertices: a box, a radius, and the places of an eye and of three lines.

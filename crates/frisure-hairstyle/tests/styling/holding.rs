@@ -56,7 +56,7 @@ fn a_clip_holds_hair_where_it_is_put() {
 fn a_braid_hangs_along_gravity() {
     let tie = Operation::Tie(Tie { to: TiePlace::Low, braided: true, ..Tie::default() });
     for down in [DVec3::X, DVec3::Z, DVec3::new(0.0, 0.8, -0.6)] {
-        let mut long = spec("caucasian-straight", 20, HairContact::Layers);
+        let mut long = spec("caucasian-straight", 12, HairContact::Layers);
         (long.length.mean, long.pose) = (0.6, Pose::of(down).unwrap());
         let before = predict(&long, &HEAD, PredictOptions::default(), &()).unwrap();
         let braided = done(&before, &tie);
