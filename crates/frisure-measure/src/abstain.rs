@@ -159,11 +159,11 @@ impl Abstention {
             }
             Self::Scale { .. } => "is the scale right, such as 52 px/mm and not 52 mm/px?",
             Self::Short { .. } => {
-                "give the length of the hair from the place where it is held to its tip, or leave --length out; and is the scale right?"
+                "give the length of the hair from the place where it is held to its tip, or none; and is the scale right?"
             }
             Self::Ambiguous { .. } => "take fewer hairs, or a single one",
             Self::Uncertain { .. } => {
-                "photograph a longer lock or from nearer; --diameter, --length and --type tell more of the fibre"
+                "photograph a longer lock or from nearer; diameter, length and hair type, if they are given, tell more of the fibre"
             }
         }
     }

@@ -25,8 +25,31 @@ pub(crate) struct HeadAtRest(Arc<Kept>);
 struct Kept {
     sensitivity: HeadSensitivity,
     rods: Vec<Rod>,
+    /// What water and a hold make of the fibre of each guide.
+    factors: Vec<FibreFactors>,
     /// Nodes of each guide.
     nodes: Vec<usize>,
+}
+
+/// Moduli, density and diameter of the rod of a guide over those of its room-dry fibre, which is what the keys of a scene describe.
+struct FibreFactors {
+    youngs_modulus: f64,
+    shear_modulus: f64,
+    density: f64,
+    diameter: f64,
+}
+
+impl FibreFactors {
+    fn new(rod: &Rod, fibre: &Rod) -> Self {
+        let [(now, section), (dry, dry_section)] =
+            [rod, fibre].map(|rod| (rod.spec().material, rod.spec().section));
+        Self {
+            youngs_modulus: now.youngs_modulus() / dry.youngs_modulus(),
+            shear_modulus: now.shear_modulus() / dry.shear_modulus(),
+            density: now.density() / dry.density(),
+            diameter: section.mean_radius() / dry_section.mean_radius(),
+        }
+    }
 }
 
 /// The derivatives of G guides of E elements in all: by the natural strain of each element (E, 3); by a strain that is the same all along a guide, and by gravity
@@ -77,8 +100,10 @@ impl HeadAtRest {
             memory::check(hairstyle.spec(), Work::Guides)?;
             let sensitivity = HeadSensitivity::new(hairstyle, head, p).map_err(told)?;
             let rods = hairstyle.guides().iter().map(|guide| guide.rod.clone()).collect();
+            let pairs = hairstyle.guides().iter().zip(hairstyle.planned());
+            let factors = pairs.map(|(now, dry)| FibreFactors::new(&now.rod, &dry.rod)).collect();
             let nodes = sensitivity.shapes().map(|shape| shape.positions.len()).collect();
-            Ok(Kept { sensitivity, rods, nodes })
+            Ok(Kept { sensitivity, rods, factors, nodes })
         })?;
         Ok(Self(Arc::new(kept)))
     }
@@ -176,11 +201,12 @@ impl Kept {
         let mut each = each.as_slice();
         let guide = |(i, rod): (usize, &Rod)| {
             let at = |change: &PyReadonlyArray1<'_, f64>| change.as_array()[i];
+            let by = &self.factors[i];
             let fibre = FibreChange {
-                youngs_modulus: at(&changes.youngs_modulus),
-                shear_modulus: at(&changes.shear_modulus),
-                density: at(&changes.density),
-                diameter: at(&changes.diameter),
+                youngs_modulus: at(&changes.youngs_modulus) * by.youngs_modulus,
+                shear_modulus: at(&changes.shear_modulus) * by.shear_modulus,
+                density: at(&changes.density) * by.density,
+                diameter: at(&changes.diameter) * by.diameter,
                 axis_ratio: at(&changes.axis_ratio),
             };
             let (stiffer, heavier) = fibre.relative(rod);
@@ -199,12 +225,17 @@ impl Kept {
     fn arrays<'py>(&self, py: Python<'py>, gradient: &HeadGradient) -> PyResult<Gradient<'py>> {
         let (mut uniform, mut gravity) = (Vec::new(), Vec::new());
         let (mut material, mut section) = (Vec::new(), Vec::new());
-        for (rod, by) in self.rods.iter().zip(&gradient.guides) {
+        for ((rod, by), dry) in self.rods.iter().zip(&gradient.guides).zip(&self.factors) {
             uniform.push(by.uniform_strain());
             gravity.push(by.load * rod.mass());
             let [density, youngs_modulus, shear_modulus] = by.material(rod);
-            material.push(DVec3::new(youngs_modulus, shear_modulus, density));
-            section.extend(by.diameter(rod));
+            material.push(DVec3::new(
+                youngs_modulus * dry.youngs_modulus,
+                shear_modulus * dry.shear_modulus,
+                density * dry.density,
+            ));
+            let [diameter, axis_ratio] = by.diameter(rod);
+            section.extend([diameter * dry.diameter, axis_ratio]);
         }
         let strains = gradient.guides.iter().flat_map(|by| &by.natural_strain);
         Ok((

@@ -164,10 +164,13 @@ impl SceneText {
         self.with_text(py, text.map_err(|e| self.wrong_edit(py, e))?)
     }
 
-    /// Writes the text to a file, as a whole or not at all.
+    /// Writes the text to a file, as a whole or not at all; in another folder than the scene's its paths are rewritten.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let written = py
-            .detach(|| write_atomically(&path, |out| out.write_all(self.scene.text().as_bytes())));
+        let folder = whole(path.parent().unwrap_or(Path::new("")));
+        let folder = folder.map_err(|e| errors::raise(py, &Error::failed(&e, "")))?;
+        let text = edit::in_folder(self.scene.text(), &self.folder, &folder);
+        let text = text.map_err(|e| self.wrong_edit(py, e))?;
+        let written = py.detach(|| write_atomically(&path, |out| out.write_all(text.as_bytes())));
         written.map_err(|e| errors::raise(py, &Error::failed(&e, "")))
     }
 

@@ -105,8 +105,9 @@ def test_a_head_without_derivatives_says_why() -> None:
         frisure.predict(rubs).derivatives()
 
 
-def test_without_what_follows_from_weight_the_sums_are_derivatives_by_keys_of_the_scene() -> None:
-    free = {**SCENE, "contact": {"hair": "wisps", "volume": 0}, "implantation": {"hold": 0}}
+@pytest.mark.parametrize("steps", [[], [{"wet": {"to": 0.6}}]], ids=["dry", "wet"])
+def test_without_what_follows_from_weight_the_sums_are_derivatives_by_keys_of_the_scene(steps: list[Any]) -> None:
+    free = {**SCENE, "contact": {"hair": "wisps", "volume": 0}, "implantation": {"hold": 0}, "step": steps}
 
     def at_rest(**numbers: Any) -> frisure.HeadDerivatives:
         scene = frisure.Scene(free)
@@ -120,6 +121,7 @@ def test_without_what_follows_from_weight_the_sums_are_derivatives_by_keys_of_th
         ("gravity", 9.81, -by.gravity_vector[:, 2].sum()),
         ("hair__fibre__density", 1300.0, by.density.sum()),
         ("hair__fibre__youngs_modulus", 3.9e9, by.youngs_modulus.sum()),
+        ("hair__fibre__shear_modulus", 0.9e9, by.shear_modulus.sum()),
     ):
         heavier, lighter = (at_rest(**{key: value * (1 + sign * 1e-4)}) for sign in (1, -1))
         expected = ((heavier.points - lighter.points) * loss).sum() / (2e-4 * value)

@@ -306,3 +306,45 @@ def test_keys_are_texts() -> None:
         for use in (lambda: scene[wrong], lambda: wrong in scene, lambda: scene.get(wrong)):
             with pytest.raises(frisure.ArgumentTypeError, match="a key is a text"):
                 use()
+
+
+def test_lists_change_the_scene() -> None:
+    scene = frisure.Scene({**SMALL, "region": [{"where": "nape", "length": "4 cm"}]})
+    scene.region[0].length = "2 cm"
+    scene.region.append({"where": ["sides", "back"], "length": "3 cm"})
+    scene.region[1].where[0] = "top"
+    again = frisure.Scene.from_text(scene.text)
+    assert again.region == scene.region == [{"where": "nape", "length": "2 cm"}, {"where": ["top", "back"], "length": "3 cm"}]
+    assert again == again and len(scene.region) == 2 and scene.region[-1].length == "3 cm"
+    before = scene.text
+    with pytest.raises(frisure.SceneError):
+        scene.region.append({"where": "elbow"})
+    assert scene.text == before
+    del scene.region[0]
+    scene.step = [{"wet": {}}]
+    scene.step += [{"dry": {}}]
+    assert [list(step) for step in scene.step] == [["wet"], ["dry"]] and "nape" not in scene.text
+    with pytest.raises(IndexError, match="`region` has 1 items"):
+        scene.region[1]
+
+
+def test_a_scene_saved_elsewhere_names_the_same_files(tmp_path: Path) -> None:
+    there, here = tmp_path / "there", tmp_path / "far" / "from" / "it"
+    there.mkdir()
+    here.mkdir(parents=True)
+    (there / "head.obj").write_text("v 0 0 0\n")
+    scene = frisure.Scene({**SMALL, "head": {"mesh": "head.obj", "unit": "m"}}, folder=there)
+    scene.save(here / "a.toml")
+    scene.save(there / "b.toml")
+    assert (there / "b.toml").read_text() == scene.text
+    mesh = frisure.Scene(here / "a.toml").head.mesh
+    assert (here / mesh).resolve() == (there / "head.obj").resolve()
+
+
+def test_every_number_is_told_also_where_another_key_gives_it() -> None:
+    scene = frisure.Scene({"hair": {"type": "straight", "fibre": {"mean_radius": "40 um"}, "curl": {"kappa1": 100}}})
+    assert scene.number("hair.fibre.mean_radius") == pytest.approx(40e-6)
+    assert scene.number("hair.fibre.diameter") == pytest.approx(80e-6)
+    assert scene.number("hair.curl.kappa1") == pytest.approx(100)
+    with pytest.raises(KeyError, match="a key without a number"):
+        scene.number("hair.type")

@@ -13,7 +13,7 @@ use frisure_hairstyle::{
     Level, Lift, Scalar, StrandContact, Turn,
 };
 use frisure_look::{Scattering, Setup, ToneCurve};
-use frisure_rod::{ElementKind, TorsionConstant};
+use frisure_rod::{ElementKind, Material, TorsionConstant};
 
 use crate::choice::OneOf;
 use crate::control::{
@@ -79,13 +79,17 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
                 "Mean diameter of a hair. Twice the diameter is sixteen times as stiff and four times as heavy.")
             .shows(|scene| 2.0 * scene.spec.fibre.section.mean_radius());
         /// Mean radius sqrt(ab); more than 0.
-        "hair.fibre.mean_radius" => number::<Length>().bounds(0.0, f64::INFINITY);
+        "hair.fibre.mean_radius" => number::<Length>().bounds(0.0, f64::INFINITY)
+            .shows(|scene| scene.spec.fibre.section.mean_radius());
         /// Semi-axis along the director d1; more than 0. The fibre bends most easily about the longer.
-        "hair.fibre.semi_axis_a" => number::<Length>().bounds(0.0, f64::INFINITY);
+        "hair.fibre.semi_axis_a" => number::<Length>().bounds(0.0, f64::INFINITY)
+            .shows(|scene| scene.spec.fibre.section.a());
         /// Semi-axis along the director d2; more than 0.
-        "hair.fibre.semi_axis_b" => number::<Length>().bounds(0.0, f64::INFINITY);
+        "hair.fibre.semi_axis_b" => number::<Length>().bounds(0.0, f64::INFINITY)
+            .shows(|scene| scene.spec.fibre.section.b());
         /// sqrt(1 - b^2/a^2) at constant mean radius; 0 (a circle) to less than 1.
-        "hair.fibre.eccentricity" => number::<Ratio>().bounds(0.0, 1.0);
+        "hair.fibre.eccentricity" => number::<Ratio>().bounds(0.0, 1.0)
+            .shows(|scene| scene.spec.fibre.section.eccentricity());
         /// Longer over shorter axis, at constant mean radius; at least 1 (a circle).
         "hair.fibre.axis_ratio" => number::<Ratio>().bounds(1.0, f64::INFINITY)
             .slider(Panel::Fibre, "Ellipticity", TO_ONE, (1.0, 3.0), 2,
@@ -104,7 +108,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .shows(|scene| scene.spec.fibre.material.shear_modulus());
         /// Poisson's ratio, instead of the shear modulus: it is E / 2(1 + nu) then; more than -1, at
         /// most 0.5.
-        "hair.fibre.poisson_ratio" => number::<Ratio>().bounds(-1.0, 0.5);
+        "hair.fibre.poisson_ratio" => number::<Ratio>().bounds(-1.0, 0.5)
+            .shows(|scene| poissons_ratio(&scene.spec.fibre.material));
         /// Density; more than 0, between 0.01 and 20 g/cm^3 on a head. Default 1.3 g/cm^3.
         "hair.fibre.density" => number::<Density>().bounds(0.0, f64::INFINITY)
             .slider(Panel::Fibre, "Density", DENSITY, (0.5, 3.0), 2, "Mass per volume.")
@@ -136,11 +141,14 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .logarithmic()
             .shows(|scene| helix(&scene.spec)[1]);
         /// Natural curvature about d1. If a strain is given, those not given are 0.
-        "hair.curl.kappa1" => number::<Strain>();
+        "hair.curl.kappa1" => number::<Strain>()
+            .shows(|scene| scene.spec.curl.strain.x);
         /// Natural curvature about d2.
-        "hair.curl.kappa2" => number::<Strain>();
+        "hair.curl.kappa2" => number::<Strain>()
+            .shows(|scene| scene.spec.curl.strain.y);
         /// Natural twist.
-        "hair.curl.tau" => number::<Strain>();
+        "hair.curl.tau" => number::<Strain>()
+            .shows(|scene| scene.spec.curl.strain.z);
         /// Natural strains at increasing distances from the root, linear between them and constant
         /// outside; for `frisure hair` only. At most 10000.
         "hair.curl.along[]" => table();
@@ -658,6 +666,11 @@ fn helix(spec: &HairstyleSpec) -> [f64; 2] {
         return [0.2, 0.0];
     }
     [(bend / total).max(5e-4), TAU * twist / total]
+}
+
+/// E / 2μ − 1.
+fn poissons_ratio(material: &Material) -> f64 {
+    0.5 * material.youngs_modulus() / material.shear_modulus() - 1.0
 }
 
 fn lift_scale(scene: &Scene) -> f64 {

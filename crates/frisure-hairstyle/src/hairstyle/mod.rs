@@ -99,6 +99,12 @@ impl Hairstyle {
         &self.guides
     }
 
+    /// The guides, as they were planned: room-dry, of their first lengths, held by nothing. In the order of [`Self::guides`].
+    #[must_use]
+    pub fn planned(&self) -> &[Guide] {
+        &self.styling.planned
+    }
+
     /// The guides, as they came to rest, in the order of [`Self::guides`].
     #[must_use]
     pub fn equilibria(&self) -> &[Equilibrium] {

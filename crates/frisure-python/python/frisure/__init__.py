@@ -33,7 +33,7 @@ from frisure.fits import Fits, fit
 from frisure.hairstyle import Hairstyle, predict
 from frisure.photos import Measured, measure
 from frisure.presets import presets
-from frisure.scene import Scene, Section
+from frisure.scene import Items, Scene, Section
 from frisure.strands import Strands
 
 __all__ = [
@@ -44,6 +44,7 @@ __all__ = [
     "FrisureError",
     "Hairstyle",
     "HeadDerivatives",
+    "Items",
     "Measured",
     "Scene",
     "SceneError",

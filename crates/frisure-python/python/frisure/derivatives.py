@@ -36,7 +36,8 @@ class HeadGradient:
 
     - `natural_strain` (G, 3), loss per rad/m: by a change of the natural strain that is the same all along a guide; `element_strain` (E, 3) by that
       of each element, guide after guide.
-    - `youngs_modulus`, `shear_modulus` (G,), loss per Pa; `density` (G,), loss per kg/m³; `diameter` (G,), loss per m; `axis_ratio` (G,), loss per 1.
+    - `youngs_modulus`, `shear_modulus` (G,), loss per Pa; `density` (G,), loss per kg/m³; `diameter` (G,), loss per m; `axis_ratio` (G,), loss per 1:
+      by those of the room-dry fibre, of which water and a hold make a fixed multiple.
     - `gravity_vector` (G, 3), loss per m/s²: by the acceleration that pulls each guide (world), by its weight alone.
     - `hair_stiffness`, `skin_stiffness`, loss per Pa: by `contact.hair_stiffness` and `contact.stiffness` of the scene.
     - `rotation` (3,), loss per rad: by a rotation of the head about the origin with all that holds its hair, while gravity stays.

@@ -140,7 +140,8 @@ def fit(
     - `arc_length` (m): of each point from the clamp, (P,) for all lines, (H, P), or a list. Without it, only the distance of a point from the
       line counts, the last point is the tip, and the length is fitted.
     - `gravity` (m/s², in the axes of the points): (3,) or (H, 3). Zero: without weight, in water or lying flat.
-    - `fibre`: which fibre each line shows, (H,) integers; by default each another. Several poses tell more than one.
+    - `fibre`: which fibre each line shows, (H,) integers; by default each another. Several poses tell more than one. Rows of the result, and of what is
+      given for each fibre, are in ascending order of these numbers.
     - `state`: state of wetness of each line, 0, 1, …; each has a stiffness over weight of its own, and the natural strain is the same.
     - `length` (m): of each fibre from the clamp to the tip, () or (F,). By default its last arc length.
     - `known`: numbers that are known, by name: `stiffness_over_weight` (m³, of state 0), `torsion_ratio`, `curvature`, `torsion` (rad/m),
@@ -244,7 +245,7 @@ def _lines(name: str, value: Any, columns: int) -> tuple[Float64, NDArray[np.int
     """The points of all lines, one after the other, and where each begins."""
     if isinstance(value, Strands):
         return value.points.astype(np.float64), value.offsets.astype(np.int64)
-    if isinstance(value, (list, tuple)) and value and np.ndim(value[0]) == 2:
+    if isinstance(value, (list, tuple)) and value and _array(f"{name}[0]", value[0]).ndim == 2:
         rows = [_array(f"{name}[{i}]", row) for i, row in enumerate(value)]
         for i, row in enumerate(rows):
             if row.ndim != 2 or row.shape[1] != columns:
@@ -267,7 +268,7 @@ def _lines(name: str, value: Any, columns: int) -> tuple[Float64, NDArray[np.int
 def _arcs(value: Any, offsets: NDArray[np.int64]) -> Float64:
     """The arc length of each point of all lines."""
     counts = np.diff(offsets)
-    if isinstance(value, (list, tuple)) and value and np.ndim(value[0]) == 1:
+    if isinstance(value, (list, tuple)) and value and _array("arc_length[0]", value[0]).ndim == 1:
         rows = [_array(f"arc_length[{i}]", row) for i, row in enumerate(value)]
         called = [f"arc_length[{i}]" for i in range(len(rows))]
     else:

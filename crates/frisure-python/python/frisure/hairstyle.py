@@ -103,10 +103,15 @@ class Hairstyle:
         return self.strands.attributes
 
     @functools.cached_property
+    def _report(self) -> str:
+        """The text of the report."""
+        return self._prediction.report(None)
+
+    @property
     def report(self) -> dict[str, Any]:
         """How the guides came to rest, with energies, volume, mass and the effect of each step, in SI units: what
         `frisure predict --report` writes. The hairs are drawn for it."""
-        report: dict[str, Any] = json.loads(self._prediction.report(None))
+        report: dict[str, Any] = json.loads(self._report)
         return report
 
     def save(
@@ -177,7 +182,7 @@ class Hairstyle:
     ) -> Hairstyle:
         """The hairstyle after one more step, as in a scene: `hair.step("cut", below="chin", where="fringe")`.
 
-        Every step takes `where`, which selects hair (`docs/styling.md`). A key that is a word of Python gets an
+        Every step but `humidity` takes `where`, which selects hair (`docs/styling.md`). A key that is a word of Python gets an
         underscore at its end.
         """
         scene = self._scene.with_step(operation, value, **keys)

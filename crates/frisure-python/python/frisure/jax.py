@@ -114,7 +114,7 @@ def settle(length: Any, **keywords: Any) -> jax.Array:
 
 def settle_with_energy(length: Any, **keywords: Any) -> _Rest:
     """The nodes of H rods at rest (m), (H, P, 3), and their potential energies (J), (H,): elastic, and of the weight, which is 0 at the height of the
-    origin. Arguments, types, gradients and errors are those of `settle`.
+    root. Arguments, types, gradients and errors are those of `settle`.
 
     >>> bool(jax.grad(lambda length: settle_with_energy(length)[1][0])(0.1) < 0)     # a longer rod hangs lower
     True

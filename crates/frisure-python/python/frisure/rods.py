@@ -140,7 +140,7 @@ class Settled:
     """H rods at rest, with P = elements + 1 nodes each.
 
     - `points` (H, P, 3), m: nodes from root to tip; None with `points=False`.
-    - `energy` (H,), J: elastic energy and that of the weight.
+    - `energy` (H,), J: elastic energy and that of the weight, which is 0 at the height of the root.
     - `stable` (H,) bool: whether the shape is known to be a minimum of the energy; never where the weight is more than 1e10 times the stiffness
       (ρSgL³/EI with the smaller EI), whose shapes rounding decides.
     - `gradient_norm` (H,): largest derivative of the energy by a turn, as a fraction of EI/L + ρSgL² (N m).

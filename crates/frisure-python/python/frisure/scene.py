@@ -7,9 +7,9 @@ import functools
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping, MutableSequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, Union, overload
 
 from frisure._check import path as _path
 from frisure._check import shown
@@ -51,7 +51,7 @@ class Section(MutableMapping[str, Any]):
 
     `section.length` and `section["length"]` are what the scene says, as it is written: `"28 cm"`. A key that the scene
     leaves out is `None` as an attribute and a `KeyError` as an item; `frisure.Scene.number` tells its value. Setting a
-    key checks it at once, `None` removes it, and a dict replaces a table.
+    key checks it at once, `None` removes it, and a dict replaces a table. A list is an `Items`.
     """
 
     _scene: Scene
@@ -70,7 +70,7 @@ class Section(MutableMapping[str, Any]):
         return found if isinstance(found, dict) else {}
 
     def _view(self, name: str, value: Any) -> Any:
-        return Section(self._scene, self._key(name)) if isinstance(value, dict) else value
+        return _view(self._scene, self._key(name), value)
 
     def _names(self) -> list[str]:
         """The keys that this table can have."""
@@ -156,11 +156,93 @@ class Section(MutableMapping[str, Any]):
         return f"<frisure.Section {self._path!r}: {self.to_dict()!r}>"
 
 
+class Items(MutableSequence[Any]):
+    """A list of a scene, such as `scene.region`; it reads and changes the scene.
+
+    Its tables are `Section`s: `scene.region[0].length = "2 cm"`, `scene.step.append({"dry": {}})`.
+    """
+
+    _scene: Scene
+    _path: str
+
+    def __init__(self, scene: Scene, path: str) -> None:
+        self._scene = scene
+        self._path = path
+
+    def _given(self) -> list[Any]:
+        """What the scene says of this list."""
+        found = self._scene._find(self._path)
+        return found if isinstance(found, list) else []
+
+    def _item(self, index: int) -> Any:
+        return _view(self._scene, f"{self._path}[{index}]", self._given()[index])
+
+    def to_list(self) -> list[Any]:
+        """What the scene says of this list, as plain values."""
+        return [_plain(item) for item in self._given()]
+
+    @overload
+    def __getitem__(self, index: int) -> Any: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Any]: ...
+    def __getitem__(self, index: int | slice) -> Any:
+        if isinstance(index, slice):
+            return [self._item(i) for i in range(len(self))[index]]
+        try:
+            return self._item(range(len(self))[index])
+        except IndexError:
+            raise IndexError(f"`{self._path}` has {len(self)} items; there is none with the index {index}") from None
+
+    @overload
+    def __setitem__(self, index: int, value: Any) -> None: ...
+    @overload
+    def __setitem__(self, index: slice, value: Iterable[Any]) -> None: ...
+    def __setitem__(self, index: int | slice, value: Any) -> None:
+        items = self.to_list()
+        items[index] = value
+        self._scene._change([(self._path, items)])
+
+    def __delitem__(self, index: int | slice) -> None:
+        items = self.to_list()
+        del items[index]
+        self._scene._change([(self._path, items)])
+
+    def insert(self, index: int, value: Any) -> None:
+        items = self.to_list()
+        items.insert(index, value)
+        self._scene._change([(self._path, items)])
+
+    def __len__(self) -> int:
+        return len(self._given())
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, (Items, list, tuple)):
+            return bool(self.to_list() == [_plain(item) for item in other])
+        return NotImplemented
+
+    def __repr__(self) -> str:
+        return repr(self.to_list())
+
+
+def _view(scene: Scene, path: str, value: Any) -> Any:
+    """A value of a scene through which the scene is changed, if it has parts."""
+    if isinstance(value, dict):
+        return Section(scene, path)
+    return Items(scene, path) if isinstance(value, list) else value
+
+
 def _plain(value: Any) -> Any:
     """A copy of values of TOML."""
-    if isinstance(value, dict):
+    if isinstance(value, (dict, Section)):
         return {key: _plain(item) for key, item in value.items()}
-    return [_plain(item) for item in value] if isinstance(value, list) else value
+    return [_plain(item) for item in value] if isinstance(value, (list, Items)) else value
+
+
+def _own(value: Any) -> Any:
+    """A value for a scene, with copies of what belongs to one; others are not looked into, for they may be deep."""
+    if isinstance(value, (Section, Items)):
+        return _plain(value)
+    return [_own(item) if isinstance(item, (Section, Items)) else item for item in value] if isinstance(value, list) else value
 
 
 class Scene(Section):
@@ -233,7 +315,7 @@ class Scene(Section):
         return found
 
     def _change(self, changes: list[tuple[str, Any]]) -> None:
-        leaves = [leaf for path, value in changes for leaf in self._leaves(path, value)]
+        leaves = [leaf for path, value in changes for leaf in self._leaves(path, _own(value))]
         self._set(self._core.with_values(leaves))
 
     def _leaves(self, path: str, value: Any) -> list[tuple[str, Any]]:
@@ -248,8 +330,6 @@ class Scene(Section):
             return [(path, None), (path, value)]
         if not isinstance(value, Mapping) or not isinstance(there, dict):
             return [(path, value)]
-        if isinstance(value, Section):
-            value = value.to_dict()
         gone = [(f"{path}.{key}", None) for key in there if value.get(key) is None]
         kept = [leaf for key, item in value.items() if item is not None for leaf in self._leaves(f"{path}.{key}", item)]
         return gone + kept
@@ -273,8 +353,10 @@ class Scene(Section):
         """The number of a key such as `hair.length`, in SI units (m, rad, Pa, kg/m³), given by the scene or not."""
         number = self._core.number(_text("key", key, "a text, such as 'hair.length'"))
         if number is None:
+            if key in _keys():
+                raise KeyError(f"{key!r} is a key without a number of its own; what the scene says of it is scene[{key!r}]")
             near = difflib.get_close_matches(key, _keys(), 1)
-            raise KeyError(f"{key!r} is no key with a number" + (f"; near it is {near[0]!r}" if near else ""))
+            raise KeyError(f"{key!r} is no key of a scene" + (f"; near it is {near[0]!r}" if near else ""))
         return number
 
     def with_step(self, operation: str, value: Any = None, /, **keys: Any) -> Scene:

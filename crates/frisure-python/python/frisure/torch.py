@@ -105,7 +105,7 @@ def settle(length: Any, **keywords: Any) -> torch.Tensor:
 
 def settle_with_energy(length: Any, **keywords: Any) -> tuple[torch.Tensor, torch.Tensor]:
     """The nodes of H rods at rest (m), (H, P, 3), and their potential energies (J), (H,): elastic, and of the weight, which is 0 at the height of the
-    origin. Arguments, types and gradients are those of `settle`.
+    root. Arguments, types and gradients are those of `settle`.
 
     >>> length = torch.tensor(0.1, dtype=torch.float64, requires_grad=True)
     >>> points, energy = settle_with_energy(length)

@@ -1,12 +1,12 @@
 //! Heads and grooms from files: finding out what a file has, and naming it in the scene.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use frisure::formats::contents::{self, Contents};
-use frisure::scene::key_groups::{GROOM, HEAD, PATHS};
+use frisure::scene::key_groups::{GROOM, HEAD};
 use frisure::scene::{HeadSource, edit};
 use frisure_engine::{Request, Response, SceneRef};
-use toml_edit::{DocumentMut, Value};
+use toml_edit::Value;
 
 use super::controls::files_panel;
 use super::document::Document;
@@ -141,37 +141,14 @@ impl Salon {
     /// A path as the scene writes it: relative to the scene's folder, if the file is in it or near it.
     fn as_written(&self, path: &str) -> String {
         let folder = self.document.as_ref().map_or(Path::new(""), Document::folder);
-        relative(folder, Path::new(path)).unwrap_or_else(|| path.to_owned())
+        edit::relative_path(folder, Path::new(path)).unwrap_or_else(|| path.to_owned())
     }
 
     /// The text with its paths rewritten for another folder.
     pub(super) fn text_in(&self, folder: &Path) -> Option<String> {
         let document = self.document.as_ref()?;
-        let text = document.text();
-        let table: DocumentMut = text.parse().ok()?;
-        let moved = PATHS.iter().filter_map(|key| {
-            let item = key.split('.').try_fold(table.as_item(), |item, part| item.get(part))?;
-            let whole = normalized(&document.folder().join(item.as_str()?));
-            let from_there =
-                relative(folder, &whole).or_else(|| whole.to_str().map(str::to_owned))?;
-            let other = whole.is_absolute() && item.as_str() != Some(&from_there);
-            other.then(|| (*key, quoted(&from_there)))
-        });
-        let moved: Vec<_> = moved.collect();
-        let keys: Vec<_> = moved.iter().map(|(key, value)| (*key, Some(value.as_str()))).collect();
-        if keys.is_empty() { Some(text.to_owned()) } else { edit::set_keys(text, &keys).ok() }
+        edit::in_folder(document.text(), document.folder(), folder).ok()
     }
-}
-
-/// A path without `..`.
-fn normalized(path: &Path) -> PathBuf {
-    path.components().fold(PathBuf::new(), |mut all, part| {
-        match part {
-            Component::ParentDir => drop(all.pop()),
-            part => all.push(part),
-        }
-        all
-    })
 }
 
 /// The edits that name a file: its path, and `None` for the keys about the file before.
@@ -194,22 +171,4 @@ fn file_name(path: &str) -> String {
 /// A TOML string.
 pub(super) fn quoted(text: &str) -> String {
     Value::from(text).to_string()
-}
-
-/// The relative path from a folder to a file in it, or in a folder at most two levels up; both are absolute paths.
-fn relative(folder: &Path, file: &Path) -> Option<String> {
-    if !folder.is_absolute() || !file.is_absolute() {
-        return None;
-    }
-    let ups = folder.ancestors().take(3).position(|above| file.starts_with(above))?;
-    let above = folder.ancestors().nth(ups)?;
-    // Relative to the root of the file system, an absolute path is clearer.
-    above.parent().filter(|_| ups == 0 || above.components().count() > 2)?;
-    let inside = file.strip_prefix(above).ok()?;
-    let parts = inside.components().map(|part| match part {
-        Component::Normal(name) => name.to_str(),
-        _ => None,
-    });
-    let parts: Option<Vec<&str>> = parts.collect();
-    Some(std::iter::repeat_n("..", ups).chain(parts?).collect::<Vec<_>>().join("/"))
 }
