@@ -90,12 +90,16 @@ fn every_operation_can_be_said() {
     assert_eq!(one("grow = { months = 3 }"), grow(Growth::For(3.0 * month), 1));
     assert_eq!(one("grow = { time = '3 months' }"), grow(Growth::For(3.0 * month), 1));
     let comb = |towards, strength, hold| {
-        Operation::Comb(Comb { selection: EVERYTHING, towards, strength, hold })
+        Operation::Comb(Comb { selection: EVERYTHING, towards, strength, until: None, hold })
     };
     let left = Direction::Named(Word::Left);
     assert_eq!(one("comb = { to = 'left' }"), comb(left, Comb::STRENGTH, false));
     let along = Direction::Along(DVec3::Y);
     assert_eq!(one("comb = { to = [0, 1, 0], strength = 5, hold = true }"), comb(along, 5.0, true));
+    let Operation::Comb(stopped) = one("comb = { to = 'back', until = [0, '9 cm', 0.1] }") else {
+        panic!()
+    };
+    assert_eq!(stopped.until, Some(DVec3::new(0.0, 0.09, 0.1)));
     let part = |line| Operation::Part(Part { line });
     let middle = Parting::Straight { offset: 0.0 };
     assert_eq!(one("part = { at = 'middle' }"), part(middle));
@@ -723,11 +727,10 @@ fn operation() -> impl Strategy<Value = Operation> {
         (selection(), amount, 1_usize..1001).prop_map(|(selection, amount, stages)| {
             Operation::Grow(Grow { selection, amount, stages })
         }),
-        (selection(), towards, number(0.0, 100.0), any::<bool>()).prop_map(
-            |(selection, towards, strength, hold)| {
-                Operation::Comb(Comb { selection, towards, strength, hold })
-            }
-        ),
+        (selection(), towards, number(0.0, 100.0), prop::option::of(point()), any::<bool>())
+            .prop_map(|(selection, towards, strength, until, hold)| {
+                Operation::Comb(Comb { selection, towards, strength, until, hold })
+            }),
         line.prop_map(|line| Operation::Part(Part { line })),
         held_hair(),
         selection().prop_map(|selection| Operation::Release(Release { selection })),

@@ -9,10 +9,12 @@ use crate::math::outer;
 /// A pull at a guide, as an energy per length of hair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pull {
-    /// A comb: the same force on every length of hair, energy `−f·r`.
+    /// A comb: the same force on every length of hair up to where the comb is, energy `−f·r`.
     Comb {
         /// Force per length (N/m).
         force: DVec3,
+        /// Arc length (m) beyond which hair hangs free.
+        until: f64,
     },
     /// A clip: a short piece of hair is held at a point, as a spring that never pulls harder than
     /// `f`: `½ c d²` at the distance d = |r − p| up to f/c, `f d − ½ f²/c` farther away.
@@ -42,7 +44,7 @@ pub enum Pull {
 }
 
 frisure_digest::digest_fields!(
-    Pull: Comb { force },
+    Pull: Comb { force, until },
     Clip { piece, point, way, stiffness, most },
     Braid { path, piece, stiffness, most }
 );
@@ -51,7 +53,7 @@ impl Pull {
     /// The same, `factor` times as strong.
     pub(crate) fn scaled(self, factor: f64) -> Self {
         match self {
-            Self::Comb { force } => Self::Comb { force: force * factor },
+            Self::Comb { force, until } => Self::Comb { force: force * factor, until },
             Self::Clip { piece, point, way, stiffness, most } => {
                 Self::Clip { piece, point, way, stiffness: stiffness * factor, most: most * factor }
             }
@@ -106,8 +108,8 @@ impl Pull {
 
 impl Field for Pull {
     fn energy(&self, s: f64, p: DVec3) -> f64 {
-        if let Self::Comb { force } = *self {
-            return -force.dot(p);
+        if let Self::Comb { force, until } = *self {
+            return if s <= until { -force.dot(p) } else { 0.0 };
         }
         let Some((point, stiffness, most)) = self.spring(s) else { return 0.0 };
         // A spring up to the distance f/c, a constant force beyond (Huber): value and slope meet there.
@@ -116,9 +118,9 @@ impl Field for Pull {
     }
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
-        if let Self::Comb { force } = *self {
+        if let Self::Comb { force, until } = *self {
             // E = −f·r is linear: no stiffness.
-            return Some((-force, DMat3::ZERO));
+            return (s <= until).then_some((-force, DMat3::ZERO));
         }
         let (point, stiffness, most) = self.spring(s)?;
         let away = p - point;

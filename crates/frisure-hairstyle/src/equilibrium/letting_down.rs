@@ -35,7 +35,7 @@ pub(super) fn let_down(
     let rod = &guide.rod;
     let off = head.signed_distance().value_gradient(rod.root().position()).1.normalize_or(DVec3::Z);
     let firmest = rod.stiffness().truncate().max_element() / (BEND.powi(2) * rod.length());
-    let lift = |force: f64| Pull::Comb { force: off * force };
+    let lift = |force: f64| Pull::Comb { force: off * force, until: f64::INFINITY };
     // 1. In the hand, before there is a body.
     let full = lift(firmest);
     let held = along(&full, guide, elements);
@@ -87,7 +87,7 @@ mod tests {
             let natural = NaturalStrain::helix(0.003, 0.03).unwrap();
             guide.rod = Rod::new(RodSpec { natural, material: material.unwrap(), ..free }).unwrap();
             let tension = guide.rod.up() * (-2.0 * guide.rod.weight());
-            guide.pull = Some(Pull::Comb { force: tension });
+            guide.pull = Some(Pull::Comb { force: tension, until: f64::INFINITY });
             guide.firmness = 10.0;
         }
         guides

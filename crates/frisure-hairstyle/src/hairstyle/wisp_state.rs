@@ -140,6 +140,8 @@ pub(crate) enum Grip {
         direction: DVec3,
         /// As [`crate::styling::Comb::strength`].
         strength: f64,
+        /// As [`crate::styling::Comb::until`].
+        until: Option<DVec3>,
     },
 }
 

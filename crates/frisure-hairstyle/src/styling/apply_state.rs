@@ -25,6 +25,11 @@ const MOST_BRAID_KNOTS: f64 = 2000.0;
 /// Force (in EI/L³) that bends a hair as a comb does. Chosen by trial; not measured further.
 const BENDING: f64 = 20.0;
 
+/// The way of hair over the head from its root to a comb, over the straight one; and the smallest share of a hair that a comb takes, however near
+/// to the root it stops. Chosen.
+const COMBED_WAY: f64 = 1.1;
+const LEAST_COMBED: f64 = 0.25;
+
 /// Stiffness (Pa) with which a clip holds a piece of hair, and the length (m) of the piece.
 /// Chosen by trial; not measured further.
 const CLIP: (f64, f64) = (20.0, 0.012);
@@ -124,8 +129,17 @@ fn effort(rod: &Rod, shortest: f64) -> f64 {
 /// What pulls at a rod that is gripped.
 pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
     match grip? {
-        Grip::Comb { direction, strength } => {
-            Some(Pull::Comb { force: direction * (strength * effort(rod, 0.0)) })
+        Grip::Comb { direction, strength, until } => {
+            let force = direction * (strength * effort(rod, 0.0));
+            Some(match until {
+                None => Pull::Comb { force, until: f64::INFINITY },
+                Some(comb) => {
+                    // As hard as it pulls at the whole hair, on the piece from the root to the comb.
+                    let piece = COMBED_WAY * comb.distance(rod.root().position());
+                    let until = piece.clamp(LEAST_COMBED * rod.length(), rod.length());
+                    Pull::Comb { force: force * (rod.length() / until), until }
+                }
+            })
         }
         Grip::Clip { at, to: point, by } => {
             let long = CLIP.1.min(rod.length());
@@ -148,7 +162,8 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
             Some(Pull::Braid { path, piece, stiffness: CLIP.0, most })
         }
         Grip::Mould { tension, .. } => {
-            (tension > 0.0).then(|| Pull::Comb { force: -rod.up() * (tension * rod.weight()) })
+            let force = -rod.up() * (tension * rod.weight());
+            (tension > 0.0).then_some(Pull::Comb { force, until: f64::INFINITY })
         }
     }
 }

@@ -20,7 +20,7 @@ fn combed_hair_falls_to_an_equilibrium_that_need_not_be_the_old_one() {
     let sides = Selection::Place(Place::Region(Region::Sides));
     let comb = |hold: bool| {
         let (selection, towards) = (sides.clone(), Direction::Named(frisure_hairstyle::Comb::Back));
-        Operation::Comb(Comb { selection, towards, strength: 4.0, hold })
+        Operation::Comb(Comb { selection, towards, strength: 4.0, hold, ..Comb::default() })
     };
     let held = done(&before, &comb(true));
     let free = done(&before, &comb(false));
@@ -38,6 +38,40 @@ fn combed_hair_falls_to_an_equilibrium_that_need_not_be_the_old_one() {
     // What was not combed did not move.
     let others = before.equilibria().iter().zip(free.equilibria()).zip(&chosen);
     assert!(others.filter(|(_, chosen)| !**chosen).all(|((a, b), _)| a.shape == b.shape));
+}
+
+/// Hair is drawn to where the comb stops, and what is beyond it hangs.
+#[test]
+fn hair_beyond_a_comb_that_stops_hangs_free() {
+    let before = hairstyle("caucasian-straight", 40);
+    let sides = Selection::Place(Place::Region(Region::Sides));
+    let comb = |until| {
+        let towards = Direction::Along(DVec3::Y);
+        let (selection, hold) = (sides.clone(), true);
+        done(&before, &Comb { selection, towards, until, hold, ..Comb::default() }.into())
+    };
+    let crown = HEAD.landmarks().whorl;
+    let (through, stopped) = (comb(None), comb(Some(crown)));
+    let chosen = selected(&before, &HEAD, &sides).unwrap();
+    let mut seen = 0;
+    for wisp in (0..40).filter(|&i| chosen[i]) {
+        let [through, stopped, before] =
+            [&through, &stopped, &before].map(|h| h.equilibria()[wisp].centre_line(101));
+        let length = through.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+        let comb = crown.distance(before[0]) / length;
+        if comb > 0.6 {
+            continue;
+        }
+        // The last tenth: as it hangs without a comb, and not along it.
+        let end = |line: &[DVec3]| (line[100] - line[90]).normalize();
+        assert!(end(&through).y > 0.8 && end(&stopped).z < -0.9, "{wisp}: {:?}", end(&stopped));
+        // Before the comb it is drawn back.
+        let middle = (50.0 * comb) as usize;
+        assert!(stopped[middle].y > before[middle].y + 2e-3, "{wisp}");
+        seen += 1;
+    }
+    assert!(seen > 2, "{seen}");
+    assert_eq!(settling_report(&stopped, &HEAD).not_converged, 0);
 }
 
 #[test]

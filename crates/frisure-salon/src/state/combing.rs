@@ -57,6 +57,20 @@ impl CombStroke {
         way.try_normalize()
     }
 
+    /// Where the comb ended (m): on the skin, or beside the head as far away as the skin where it began, or as what the camera turns about.
+    #[must_use]
+    pub fn end(&self, orbit: &Orbit) -> Option<DVec3> {
+        let [from, .., to] = self.path[..] else { return None };
+        to.skin.or_else(|| {
+            let (camera, view) = (orbit.camera(), View::new(orbit));
+            let middle = from.skin.unwrap_or_else(|| orbit.target);
+            let depth = (middle - view.eye).dot(view.forward);
+            let [x, y] = to.at;
+            let across = x * self.aspect * camera.right() + y * camera.up();
+            Some(view.eye + depth * (view.forward + view.tan * across))
+        })
+    }
+
     /// Whether the comb ended on the head, where it presses hair to the skin.
     #[must_use]
     pub fn ends_on_skin(&self) -> bool {
@@ -197,9 +211,13 @@ mod tests {
         let over = stroke(&orbit, None, [at(-0.01), at(0.03)]);
         assert_eq!(over.wisps(&orbit, 0.01, &strands), [0, 1]);
         assert!(over.direction(&orbit).unwrap().distance(DVec3::X) < 1e-3);
+        // It ends where the hand is, on the skin or beside the head.
+        let seen = orbit.project(over.end(&orbit).unwrap(), 1.5).unwrap();
+        assert!([0, 1].iter().all(|&i| (seen[i] - over.path[10].at[i]).abs() < 1e-9));
         // None of it is before skin that is nearer.
         let skin = Some(DVec3::new(0.0, -0.12, 0.0));
         let hidden = stroke(&orbit, skin, [at(-0.01), at(0.03)]);
+        assert_eq!(hidden.end(&orbit), skin);
         assert!(hidden.wisps(&orbit, 0.01, &strands).is_empty());
         assert_eq!(stroke(&orbit, None, [at(0.0), at(0.0)]).direction(&orbit), None);
     }

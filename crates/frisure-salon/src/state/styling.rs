@@ -186,7 +186,8 @@ impl Salon {
         let direction = rounded(stroke.direction(&self.orbit)?, 1e-3);
         let strands = &self.combing.as_ref()?.strands;
         let wisps = stroke.wisps(&self.orbit, self.brush.radius, strands);
-        (!wisps.is_empty()).then(|| (combing(Direction::Along(direction), hold), wisps))
+        let until = stroke.end(&self.orbit).map(|end| rounded(end, 1e-4));
+        (!wisps.is_empty()).then(|| (combing(Direction::Along(direction), until, hold), wisps))
     }
 
     /// The top of the head (m).
@@ -256,12 +257,12 @@ impl Salon {
 /// An operation that combs hair in a direction and holds it there.
 #[must_use]
 pub fn comb(towards: Direction) -> Operation {
-    combing(towards, true)
+    combing(towards, None, true)
 }
 
-fn combing(towards: Direction, hold: bool) -> Operation {
+fn combing(towards: Direction, until: Option<DVec3>, hold: bool) -> Operation {
     let selection = Selection::Everything;
-    Operation::Comb(Comb { selection, towards, strength: Comb::STRENGTH, hold })
+    Operation::Comb(Comb { selection, towards, strength: Comb::STRENGTH, until, hold })
 }
 
 impl Salon {

@@ -228,6 +228,11 @@ operations! {
         /// How hard, in what it takes to bend the hair or to carry its weight, whichever is more; {}.
         /// Default 3.
         strength: Ratio, in Comb::STRENGTHS;
+        /// Where the comb stops, a point within 100 m of the origin: what of a hair is farther from its root hangs free. Left out, the comb
+        /// goes through to the tips.
+        until: Point,
+            set |comb, point| comb.until = Some(point),
+            get |comb| comb.until;
         /// Whether the comb stays until the hair is released. Default false.
         hold: Flag;
     }

@@ -8,7 +8,7 @@ use crate::styling::error::StyleError;
 use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
-use super::apply::{Apply, check_direction};
+use super::apply::{Apply, check_direction, check_point};
 use crate::spec;
 
 /// Drags hair aside.
@@ -21,6 +21,9 @@ pub struct Comb {
     /// How hard, in what it takes to bend the hair or to carry its weight, whichever is more; 0 to
     /// 100.
     pub strength: f64,
+    /// Where the comb stops (m, in the head's frame): what of a hair is farther from its root than that hangs free. None for a comb that goes through
+    /// to the tips.
+    pub until: Option<DVec3>,
     /// Whether the comb stays, until the hair is released.
     pub hold: bool,
 }
@@ -28,7 +31,13 @@ pub struct Comb {
 impl Default for Comb {
     fn default() -> Self {
         let towards = Direction::Named(spec::Comb::Back);
-        Self { selection: Selection::Everything, towards, strength: Self::STRENGTH, hold: false }
+        Self {
+            selection: Selection::Everything,
+            towards,
+            strength: Self::STRENGTH,
+            until: None,
+            hold: false,
+        }
     }
 }
 
@@ -68,6 +77,9 @@ impl Direction {
 impl Apply for Comb {
     fn check(&self) -> Result<(), InvalidSpec> {
         Self::STRENGTHS.check(self.strength)?;
+        if let Some(until) = self.until {
+            check_point("comb.until", until)?;
+        }
         match self.towards {
             Direction::Named(_) => Ok(()),
             Direction::Along(d) => check_direction("comb.to", d),
@@ -75,6 +87,7 @@ impl Apply for Comb {
     }
 
     fn mirror(&mut self) {
+        self.until = self.until.map(mirrored);
         self.towards = match self.towards {
             Direction::Named(spec::Comb::Left) => Direction::Named(spec::Comb::Right),
             Direction::Named(spec::Comb::Right) => Direction::Named(spec::Comb::Left),
@@ -84,8 +97,8 @@ impl Apply for Comb {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
-        let (direction, strength) = (self.towards.vector(), self.strength);
-        let combed = act.held(&self.selection, Grip::Comb { direction, strength })?;
+        let (direction, strength, until) = (self.towards.vector(), self.strength, self.until);
+        let combed = act.held(&self.selection, Grip::Comb { direction, strength, until })?;
         if self.hold {
             return Ok(combed);
         }
