@@ -3,8 +3,11 @@
 use frisure::formats::groom::{Groom, HairColour};
 use frisure::hairstyle;
 use frisure::look::apparent_colour;
+use frisure::render::strand_colours;
 use frisure::scene::Scene;
-use frisure::strands::Strands;
+use frisure::strands::{Strands, names};
+
+use glam::Vec3;
 
 use crate::runner::LoadedScene;
 
@@ -16,6 +19,12 @@ impl LoadedScene {
         let Self { scene, head, hairstyle, .. } = self;
         if !hairs.is_empty() {
             hairstyle::describe(&mut hairs, hairstyle, head);
+            // A groom of another program keeps its own.
+            if hairs.attribute(names::COLOUR).is_none()
+                && let Some(colours) = strand_colours(&hairs, &scene.look.hair)
+            {
+                hairs.set_attribute(colours).expect("as many values as strands or points");
+            }
         }
         if fibres {
             if hairs.attribute("d1").is_none() {
@@ -42,12 +51,14 @@ fn name(scene: &Scene) -> String {
     scene.name.chars().map(fit).collect()
 }
 
-/// The colour of the hair between its ends.
+/// The colour of the hair between its ends, on average over white and other hairs.
 fn colour(scene: &Scene) -> HairColour {
     let hair = scene.look.hair;
     let natural = hair.natural();
     let absorption = hair.dye.map_or(natural, |dye| natural.lerp(dye.absorption, dye.strength));
     let apparent = apparent_colour(absorption, hair.surface.azimuthal_roughness);
-    let plain = hair.dye.is_none() && hair.absorption.is_none();
+    // White hair has no pigment, and scatters all light.
+    let apparent = apparent.lerp(Vec3::ONE, hair.white_share.clamp(0.0, 1.0));
+    let plain = hair.dye.is_none() && hair.absorption.is_none() && hair.white_share <= 0.0;
     HairColour { melanin: plain.then_some(hair.melanin), colour: apparent.to_array() }
 }

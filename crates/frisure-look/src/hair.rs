@@ -30,6 +30,8 @@ pub struct HairLook {
     pub surface: HairSurface,
     /// Seed that decides which hairs are white, dark or light.
     pub seed: u32,
+    /// Whether strands that have colours of their own, the attribute `color`, are drawn in them: of all above they have the surface alone then.
+    pub own_colours: bool,
 }
 digest_fields!(HairLook {
     melanin,
@@ -40,7 +42,8 @@ digest_fields!(HairLook {
     tips,
     dye,
     surface,
-    seed
+    seed,
+    own_colours
 });
 
 /// Natural pigment that differs at one end of the hairs.
@@ -152,6 +155,7 @@ impl Default for HairLook {
             dye: None,
             surface: HairSurface::default(),
             seed: 1,
+            own_colours: false,
         }
     }
 }

@@ -25,4 +25,5 @@ pub mod trace;
 pub use complexion::{Material, SKIN_ROUGHNESS, accessory_material, material};
 pub use film::{Image, MAX_SIZE};
 pub use picture::PictureSpec;
+pub use pigment::strand_colours;
 pub use scene::{Scene, all_hair, facial_hairs, framed_bounds, head_centre};

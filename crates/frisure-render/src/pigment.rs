@@ -1,7 +1,9 @@
 //! Absorption along each strand: pigment, fades, dye and white hairs.
 
-use frisure_look::{Dye, Fade, HairLook, Melanin, absorption};
-use frisure_strands::{AttributeValues, Domain, Strands};
+use frisure_look::{
+    Dye, Fade, HairLook, Melanin, absorption, absorption_of_colour, apparent_colour,
+};
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands, names};
 use glam::Vec3;
 
 use crate::hash::mix;
@@ -27,6 +29,15 @@ pub(crate) struct Pigments {
     /// Absorption of as much of it as others have.
     ash: Vec3,
     along: Option<Along>,
+    own: Option<Own>,
+}
+
+/// The absorption of strands that bring their colours.
+struct Own {
+    /// First point of each strand, if each point has a colour.
+    offsets: Option<Vec<u32>>,
+    /// Per mean radius, of each strand or point.
+    absorption: Vec<Vec3>,
 }
 
 /// How it changes from root to tip.
@@ -67,22 +78,80 @@ impl Pigments {
         // is half eumelanin and half black, with the green of the natural pigments. Chosen by eye.
         let eumelanin = absorption(Melanin { eumelanin: 1.0, pheomelanin: 0.0 });
         let ash = (eumelanin / eumelanin.y + Vec3::ONE) * (0.5 * natural.y);
-        Self { natural, factors, more, ash, along: Along::new(strands, look) }
+        let own = look.own_colours.then(|| Own::new(strands, look)).flatten();
+        Self { natural, factors, more, ash, along: Along::new(strands, look), own }
     }
 
     /// Whether strands differ from root to tip.
     pub(crate) fn vary_along(&self) -> bool {
-        self.along.is_some()
+        match &self.own {
+            Some(own) => own.offsets.is_some(),
+            None => self.along.is_some(),
+        }
     }
 
     /// Absorption per mean radius of a strand, `place` points from its root: 2.5 is in the middle
     /// between the third point and the fourth.
     pub(crate) fn at(&self, strand: u32, place: f32) -> Vec3 {
+        if let Some(own) = &self.own {
+            return own.at(strand, place);
+        }
         let index = strand as usize;
         let more = self.more.get(index).copied().unwrap_or(0.0);
         let natural = (self.natural + self.ash * more) * self.factors[index];
         self.along.as_ref().map_or(natural, |along| along.at(natural, strand, place))
     }
+}
+
+/// The apparent colours (linear sRGB) of strands that one colour does not tell, as the attribute `color`: of each strand where some are white,
+/// of each point where hair differs from root to tip. `None` where neither is so.
+#[must_use]
+pub fn strand_colours(strands: &Strands, look: &HairLook) -> Option<Attribute> {
+    let pigments = Pigments::new(strands, look);
+    if look.white_share <= 0.0 && !pigments.vary_along() {
+        return None;
+    }
+    let colour =
+        |absorption| apparent_colour(absorption, look.surface.azimuthal_roughness).to_array();
+    let (domain, values) = if pigments.vary_along() {
+        let each = strands.iter().zip(0_u32..).flat_map(|(strand, index)| {
+            let pigments = &pigments;
+            (0..strand.points.len()).map(move |k| pigments.at(index, k as f32))
+        });
+        (Domain::Point, each.map(colour).collect())
+    } else {
+        let each = (0..strands.len()).map(|index| pigments.at(index as u32, 0.0));
+        (Domain::Strand, each.map(colour).collect())
+    };
+    Some(Attribute { name: names::COLOUR.into(), domain, values: AttributeValues::F32x3(values) })
+}
+
+impl Own {
+    /// `None` where strands have no colours.
+    fn new(strands: &Strands, look: &HairLook) -> Option<Self> {
+        let Attribute { domain, values, .. } = strands.attribute(names::COLOUR)?;
+        let AttributeValues::F32x3(colours) = values else { return None };
+        let offsets = (*domain == Domain::Point).then(|| strands.offsets().to_vec());
+        let of = |c: &[f32; 3]| {
+            absorption_of_colour(Vec3::from_array(*c), look.surface.azimuthal_roughness)
+        };
+        Some(Self { offsets, absorption: colours.iter().map(of).collect() })
+    }
+
+    fn at(&self, strand: u32, place: f32) -> Vec3 {
+        let strand = strand as usize;
+        let Some(offsets) = &self.offsets else { return self.absorption[strand] };
+        let points = &self.absorption[offsets[strand] as usize..offsets[strand + 1] as usize];
+        let (before, after, part) = between(points.len(), place);
+        points[before].lerp(points[after], part)
+    }
+}
+
+/// The points before and after a place, counted from the root, of a strand with so many, and how far it is from one to the other.
+fn between(points: usize, place: f32) -> (usize, usize, f32) {
+    // The cast saturates.
+    let before = (place as usize).min(points - 1);
+    (before, (before + 1).min(points - 1), (place - before as f32).clamp(0.0, 1.0))
 }
 
 impl Along {
@@ -113,10 +182,7 @@ impl Along {
     fn at(&self, natural: Vec3, strand: u32, place: f32) -> Vec3 {
         let points = self.points(strand);
         let Some(&length) = points.last() else { return natural };
-        // The cast saturates.
-        let before = (place as usize).min(points.len() - 1);
-        let after = (before + 1).min(points.len() - 1);
-        let part = (place - before as f32).clamp(0.0, 1.0);
+        let (before, after, part) = between(points.len(), place);
         let from_root = points[before] + (points[after] - points[before]) * part;
         let factor = faded(self.roots, from_root) * faded(self.tips, length - from_root);
         let natural = natural * factor;
@@ -245,6 +311,45 @@ mod tests {
         // Independent hairs would differ by √(0.24/400) = 0.024; a wisp whose shared number is one deviation off has 0.26 or 0.56.
         assert!((mean - 0.4).abs() < 0.03, "{mean}");
         assert!((0.11..0.19).contains(&variance.sqrt()), "{}", variance.sqrt());
+    }
+
+    /// Hairs of 10 cm with 3 points.
+    fn hairs(count: u32) -> Strands {
+        let mut strands = Strands::new();
+        for i in 0..count {
+            let place = |k: u8| Vec3::new(i as f32, 0.0, -0.05 * f32::from(k));
+            strands.push(&[place(0), place(1), place(2)], &[4e-5; 3]);
+        }
+        strands
+    }
+
+    #[test]
+    fn colours_of_strands_tell_what_one_colour_does_not() {
+        let mut strands = hairs(4000);
+        assert_eq!(strand_colours(&strands, &HairLook::default()), None);
+        let grey = HairLook { white_share: 0.4, ..HairLook::default() };
+        let Attribute { domain, values, .. } = strand_colours(&strands, &grey).unwrap();
+        let AttributeValues::F32x3(colours) = values else { panic!() };
+        let white = colours.iter().filter(|c| **c == [1.0; 3]).count();
+        assert!(domain == Domain::Strand && (1500..1700).contains(&white), "{domain:?} {white}");
+        // Regrown hair is dyed from 4 cm on. In their own colours strands are as dark as in the look that they come from.
+        let absorption = absorption_of_colour(Vec3::new(0.1, 0.2, 0.8), 0.3);
+        let dye = Some(Dye { absorption, strength: 1.0, regrowth: 0.04 });
+        let look = HairLook { dye, ..grey };
+        let colours = strand_colours(&strands, &look).unwrap();
+        assert_eq!(colours.domain, Domain::Point);
+        strands.set_attribute(colours).unwrap();
+        let own = Pigments::new(&strands, &HairLook { own_colours: true, ..HairLook::default() });
+        let pigments = Pigments::new(&strands, &look);
+        assert!(own.vary_along());
+        // No colour is darker than a thousandth.
+        let darkest = absorption_of_colour(Vec3::ZERO, 0.3);
+        for strand in 0..100 {
+            for place in [0.0, 1.0, 2.0] {
+                let (a, b) = (own.at(strand, place), pigments.at(strand, place).min(darkest));
+                assert!(a.distance(b) < 1e-3 * b.length() + 1e-6, "{strand} {place}: {a} {b}");
+            }
+        }
     }
 
     #[test]

@@ -81,7 +81,7 @@ pub(crate) struct Pictured {
     pub(crate) from: usize,
 
     /// For a groom: the scene whose head, look, camera and light it is shown with. Without it, a groom
-    /// has no head.
+    /// has no head, and the colours of its file.
     #[arg(long, value_name = "SCENE")]
     pub(crate) look: Option<PathBuf>,
 

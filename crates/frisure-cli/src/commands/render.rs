@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use frisure::files::Files;
-use frisure::formats::groom::Format as GroomFormat;
+use frisure::formats::groom::{Format as GroomFormat, HairColour};
 use frisure::formats::picture::Format;
 use frisure::hairstyle::head::Head;
+use frisure::look::{HairLook, absorption_of_colour};
 use frisure::progress::Progress;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
@@ -100,10 +101,25 @@ fn with_view(pictured: &Pictured, mut scene: Scene) -> Scene {
     scene
 }
 
-/// The hairs of a groom, or its guides where it has no others.
-fn strands(path: &Path, axes: Axes) -> Result<Strands, Error> {
+/// The hairs of a groom, or its guides where it has no others; and the colour of all.
+fn strands(path: &Path, axes: Axes) -> Result<(Strands, Option<HairColour>), Error> {
     let groom = read_groom(path, axes, "set `--unit` and `--up`")?;
-    Ok(if groom.hairs.is_empty() { groom.guides } else { groom.hairs })
+    Ok((if groom.hairs.is_empty() { groom.guides } else { groom.hairs }, groom.colour))
+}
+
+/// A look in the colours that a groom brings.
+fn in_own_colours(look: HairLook, colour: Option<HairColour>) -> HairLook {
+    let own = HairLook { own_colours: true, ..look };
+    match colour {
+        Some(HairColour { melanin: Some(melanin), .. }) => {
+            HairLook { melanin, absorption: None, ..own }
+        }
+        Some(HairColour { colour, melanin: None }) => {
+            let of = absorption_of_colour(colour.into(), look.surface.azimuthal_roughness);
+            HairLook { absorption: Some(of), ..own }
+        }
+        None => own,
+    }
 }
 
 /// The pictures of a groom.
@@ -121,7 +137,7 @@ impl GroomPicture<'_> {
             Some(path) => read_scene(path)?,
             None => Scene::parse("", "", Path::new(""))?,
         };
-        let scene = with_view(pictured, look);
+        let mut scene = with_view(pictured, look);
         Format::of(&pictured.output).map_err(|e| Error::because(&e, ""))?;
         let work = self.work(&scene);
         let paths = views.paths(&pictured.output);
@@ -142,7 +158,7 @@ impl GroomPicture<'_> {
         }
         let progress = Bar::new(quiet);
         progress.report("strands", 0.0);
-        let lines = self.write(&scene, &progress)?;
+        let lines = self.write(&mut scene, &progress)?;
         drop(progress);
         if !quiet {
             let lines: String = lines.iter().map(|line| format!("wrote {line}\n")).collect();
@@ -159,13 +175,18 @@ impl GroomPicture<'_> {
         }
     }
 
-    /// Writes the pictures with the look of a scene; with the scene's head if the scene was given. Returns a line about each.
-    fn write(&self, scene: &Scene, progress: &Bar) -> Result<Vec<String>, Error> {
+    /// Writes the pictures with the look of a scene; with the scene's head if the scene was given, and else in the colours of the groom. Returns a
+    /// line about each.
+    fn write(&self, scene: &mut Scene, progress: &Bar) -> Result<Vec<String>, Error> {
         let Self { pictured, views, quality, tracing } = self;
         let (path, files) = (&pictured.scene, Files::default());
         let environment = environment_map(scene, &files)?;
         let filter = noise_filter(tracing.denoise)?;
-        let strands = strands(path, pictured.axes)?;
+        let (strands, colour) = strands(path, pictured.axes)?;
+        if pictured.look.is_none() {
+            scene.look.hair = in_own_colours(scene.look.hair, colour);
+        }
+        let scene = &*scene;
         memory::check_drawn(strands.points().len(), self.work(scene))?;
         let head = pictured.look.as_ref().map(|_| HeadCache::default().load(scene, &files));
         let head = head.transpose()?.map(|loaded| loaded.head);

@@ -683,3 +683,41 @@ fn simulated_hairs_that_are_not_at_rest_are_no_success() {
     let [hairs, stable] = ["hairs", "stable"].map(|key| report["simulated"][key].as_u64().unwrap());
     assert_eq!(ran.code, Some(if stable < hairs { 3 } else { 0 }), "{}", ran.out);
 }
+
+/// Grey hair is white and dark hairs: so are those of its grooms, and pictures of them.
+#[test]
+fn a_groom_has_the_colours_of_its_hairs_and_is_viewed_in_them() {
+    let look = |colour: &str| format!("{QUICK}[look]\ncolour = \"{colour}\"\n");
+    let mut room = Room::new();
+    for colour in ["black", "grey"] {
+        room = room.with(&format!("{colour}.toml"), look(colour));
+        for (from, to) in [("toml", "usda"), ("usda", "png"), ("toml", "hair"), ("hair", "2.png")] {
+            let verb = if to.ends_with("png") { "view" } else { "predict" };
+            let [from, to] = [from, to].map(|ending| format!("{colour}.{ending}"));
+            let ran = room.run(&[verb, &from, "-o", &to]);
+            assert_eq!(ran.code, Some(0), "{}", ran.err);
+        }
+    }
+    let read = |name: &str| fs::read(room.path(name)).unwrap();
+    let text = |name: &str| String::from_utf8(read(name)).unwrap();
+    assert!(
+        text("grey.usda").contains("groom_color") && !text("black.usda").contains("groom_color")
+    );
+    assert!(read("grey.png") != read("black.png"));
+    // Yuksel's format has colours of points alone.
+    assert!(read("grey.hair").len() > read("black.hair").len());
+    assert!(read("grey.2.png") != read("black.2.png"));
+    // The look of a scene is in the place of the groom's.
+    for colour in ["black", "grey"] {
+        let ran = room.run(&[
+            "view",
+            &format!("{colour}.usda"),
+            "--look",
+            "black.toml",
+            "-o",
+            &format!("{colour}.3.png"),
+        ]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+    }
+    assert!(read("grey.3.png") == read("black.3.png"));
+}

@@ -6,7 +6,9 @@
 //!
 //! Source of the layout: <http://www.cemyuksel.com/research/hairmodels/> ("HAIR file format").
 
+use std::borrow::Cow;
 use std::io::{self, Write};
+use std::iter;
 
 use frisure_strands::{AttributeValues, Domain, Strands};
 
@@ -77,7 +79,13 @@ fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()
     // A single count in the header serves when all strands are alike.
     let alike = (0..strands.len()).all(|i| segments(i) == first);
     let colours = strands.attribute(COLOUR_ATTRIBUTE).and_then(|a| match (&a.domain, &a.values) {
-        (Domain::Point, AttributeValues::F32x3(c)) => Some(c),
+        (Domain::Point, AttributeValues::F32x3(c)) => Some(Cow::Borrowed(c)),
+        // The format has colours of points alone.
+        (Domain::Strand, AttributeValues::F32x3(c)) => {
+            let each = strands.iter().zip(c);
+            let each = each.flat_map(|(strand, c)| iter::repeat_n(*c, strand.points.len()));
+            Some(Cow::Owned(each.collect()))
+        }
         _ => None,
     });
     let transparency = strands.attribute(TRANSPARENCY_ATTRIBUTE);
@@ -123,7 +131,7 @@ fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()
     for t in transparency.into_iter().flatten() {
         write_floats(out, [*t])?;
     }
-    for c in colours.into_iter().flatten() {
+    for c in colours.iter().flat_map(|colours| colours.iter()) {
         write_floats(out, *c)?;
     }
     Ok(())
@@ -218,6 +226,7 @@ fn floats(bytes: &[u8]) -> Vec<f32> {
 mod tests {
     use glam::Vec3;
 
+    use super::super::attributes::of_strands;
     use super::*;
 
     const CM: Frame = Frame::CENTIMETRES_Z;
@@ -280,6 +289,17 @@ mod tests {
         strands.set_attribute(of_points(COLOUR_ATTRIBUTE, colours)).unwrap();
         let read = decode(&bytes(&strands), FrameChoice::default()).unwrap().hairs;
         assert_eq!(read.attributes(), strands.attributes());
+    }
+
+    #[test]
+    fn colours_of_strands_are_those_of_their_points() {
+        let mut strands = groom(&[3, 2]);
+        let colours = AttributeValues::F32x3(vec![[0.5, 0.25, 0.125], [1.0; 3]]);
+        strands.set_attribute(of_strands(COLOUR_ATTRIBUTE, colours)).unwrap();
+        let read = decode(&bytes(&strands), FrameChoice::default()).unwrap().hairs;
+        let [a, b] = [[0.5, 0.25, 0.125], [1.0; 3]];
+        let expected = of_points(COLOUR_ATTRIBUTE, AttributeValues::F32x3(vec![a, a, a, b, b]));
+        assert_eq!(read.attribute(COLOUR_ATTRIBUTE), Some(&expected));
     }
 
     #[test]

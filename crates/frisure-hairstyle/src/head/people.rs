@@ -254,7 +254,8 @@ mod tests {
             assert!(distance(0.0, 0.02, -0.3) < -0.04 && distance(0.0, 0.0, 0.0) < -0.05, "{name}");
             assert!(distance(0.0, -0.25, 0.0) > 0.05, "{name}");
             let features = surface.features().unwrap();
-            assert_eq!(features.hairs.len(), 2 * 810, "{name}");
+            let brow = (480.0 * entry(name).unwrap().1.brows) as usize;
+            assert_eq!(features.hairs.len(), 2 * (330 + brow), "{name}");
             for strand in features.hairs.iter() {
                 let [root, tip] = [strand.points[0], strand.points[strand.points.len() - 1]]
                     .map(|p| head.signed_distance().value(p.as_dvec3()));

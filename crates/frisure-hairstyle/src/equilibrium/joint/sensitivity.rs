@@ -482,9 +482,9 @@ mod tests {
     fn agrees(contact: HairContact, element: ElementKind, most: f64) {
         let head = Head::mannequin();
         // The guides; how they lie together comes below.
-        let alone = described(HairContact::None, element);
         let spec = described(contact, element);
-        let alone = HairstyleSpec { length: spec.length.clone(), ..alone };
+        let mut alone = spec.clone();
+        alone.contact.hair = HairContact::None;
         let mut hairstyle = predict(&alone, &head, PredictOptions::default(), &()).unwrap();
         hairstyle.spec = spec;
         // Uniform strain, so that its change is that of `ParameterChange`.
