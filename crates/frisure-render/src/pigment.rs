@@ -343,7 +343,7 @@ mod tests {
         let pigments = Pigments::new(&strands, &look);
         assert!(own.vary_along());
         // No colour is darker than a thousandth.
-        let darkest = absorption_of_colour(Vec3::ZERO, 0.3);
+        let darkest = absorption_of_colour(Vec3::ZERO, look.surface.azimuthal_roughness);
         for strand in 0..100 {
             for place in [0.0, 1.0, 2.0] {
                 let (a, b) = (own.at(strand, place), pigments.at(strand, place).min(darkest));
