@@ -63,7 +63,7 @@ impl CombStroke {
         let [from, .., to] = self.path[..] else { return None };
         to.skin.or_else(|| {
             let (camera, view) = (orbit.camera(), View::new(orbit));
-            let middle = from.skin.unwrap_or_else(|| orbit.target);
+            let middle = from.skin.unwrap_or(orbit.target);
             let depth = (middle - view.eye).dot(view.forward);
             let [x, y] = to.at;
             let across = x * self.aspect * camera.right() + y * camera.up();
