@@ -13,6 +13,8 @@ use crate::scene::{LASH_PIGMENT, PIGMENT};
 const WISP_PART: f32 = 0.6;
 /// Correlation of the whiteness of two hairs of one wisp: hair turns grey in patches, so that locks differ. Chosen by eye.
 const WHITE_CORRELATION: f32 = 0.15;
+/// White hairs among those of brows, over the share on the head: brows turn grey later. Chosen by eye.
+const WHITE_BROWS: f32 = 0.4;
 /// Least and greatest factor on the pigment of a strand; chosen.
 const FACTORS: (f32, f32) = (0.25, 4.0);
 /// Length over which dye begins (m); chosen by eye.
@@ -64,11 +66,13 @@ impl Pigments {
         if look.white_share > 0.0 {
             let guides = guides(strands);
             let threshold = normal_quantile(look.white_share);
+            let of_brows = normal_quantile(WHITE_BROWS * look.white_share);
             for (strand, factor) in factors.iter_mut().enumerate() {
+                let more = more.get(strand).copied().unwrap_or(0.0);
                 // Lashes seldom turn grey.
-                let lash = more.get(strand).is_some_and(|more| more + 1.0 >= LASH_PIGMENT);
+                let lash = more + 1.0 >= LASH_PIGMENT;
                 let white = whiteness(strand as u32, guides.map(|g| g[strand]), look.seed);
-                if white < threshold && !lash {
+                if white < if more > 0.0 { of_brows } else { threshold } && !lash {
                     *factor = 0.0;
                 }
             }
