@@ -72,7 +72,8 @@ impl Pigments {
                 // Lashes seldom turn grey.
                 let lash = more + 1.0 >= LASH_PIGMENT;
                 let white = whiteness(strand as u32, guides.map(|g| g[strand]), look.seed);
-                if white < if more > 0.0 { of_brows } else { threshold } && !lash {
+                let below = if more > 0.0 { of_brows } else { threshold };
+                if white < below && !lash {
                     *factor = 0.0;
                 }
             }
