@@ -14,6 +14,10 @@ def save(hairstyle: frisure.Hairstyle, path: str, program: str = "") -> None:
     if not program:
         hairstyle.save(path)
         return
+    folder = Path(path).absolute().parent
+    if not folder.is_dir():
+        raise ValueError(f"there is no folder {folder}")
+    path = str(Path(path).absolute())
     with tempfile.TemporaryDirectory(prefix="frisure-") as folder:
         whole = os.path.join(folder, f"{Path(path).stem or 'hair'}.usdc")
         hairstyle.save(whole)

@@ -24,7 +24,9 @@ class HeadError(ValueError):
 
 
 def metres_per_unit() -> float:
-    return bpy.context.scene.unit_settings.scale_length
+    """Metres in a unit of the scene; without a system of units Blender uses no scale, and a unit is a metre."""
+    settings = bpy.context.scene.unit_settings
+    return settings.scale_length if settings.system != "NONE" else 1.0
 
 
 def world_points(head) -> np.ndarray:
@@ -40,6 +42,8 @@ def check(head) -> None:
     """Raises `HeadError` unless the object is a mesh that can be a head."""
     if head is None or head.type != "MESH":
         raise HeadError("Hair grows on a mesh: select the mesh of a head first")
+    if head.data.is_editmode:
+        raise HeadError(f"{head.name} is in Edit Mode: leave it first")
     if len(head.data.polygons) == 0:
         raise HeadError(f"The mesh of {head.name} has no faces")
     points = world_points(head)
@@ -53,34 +57,83 @@ def check(head) -> None:
         )
 
 
-def ensure_uv_map(head) -> str:
-    """The name of the active UV map; a mesh without one gets one of its own.
+def check_editable(head) -> None:
+    """Raises `HeadError` for a mesh of another file: what is written into it is lost."""
+    if head.data.library is not None:
+        raise HeadError(f"The mesh of {head.name} is linked from another file: make it local, or override it")
 
-    It is the azimuthal equidistant map about the centre of the mesh, from its crown: without a seam except far below.
+
+def ensure_uv_map(head, wanted: str = "") -> str:
+    """The name of the UV map `wanted`, or of the active one; a mesh without any gets one of its own.
+
+    In that each face has a cell of its own, in its own shape: Blender finds the root of a hair by its coordinates, which must not be those
+    of two faces. A map without seams of a closed mesh has faces that lie on others.
     """
     mesh = head.data
+    if wanted in mesh.uv_layers:
+        return wanted
     if mesh.uv_layers.active is not None:
         return mesh.uv_layers.active.name
-    points = world_points(head)
-    away = points - 0.5 * (points.min(axis=0) + points.max(axis=0))
-    polar = np.arctan2(np.hypot(away[:, 0], away[:, 1]), away[:, 2]) / math.pi
-    azimuth = np.arctan2(away[:, 1], away[:, 0])
-    uv = 0.5 + 0.5 * polar[:, None] * np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1)
+    check_editable(head)
+    points = np.empty(3 * len(mesh.vertices))
+    mesh.vertices.foreach_get("co", points)
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
+    counts = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_total", counts)
+    normals = np.empty(3 * len(mesh.polygons))
+    mesh.polygons.foreach_get("normal", normals)
     layer = mesh.uv_layers.new(name=UV_MAP)
-    layer.uv.foreach_set("vector", uv[corners].astype(np.float32).ravel())
+    uv = cells(points.reshape(-1, 3)[corners], counts, normals.reshape(-1, 3))
+    layer.uv.foreach_set("vector", uv.astype(np.float32).ravel())
     return layer.name
 
 
+# The part of a cell that its face fills. Chosen: rounding leaves no face in another one's cell.
+FILLED = 0.9
+
+
+def cells(points: np.ndarray, counts: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Coordinates of the corners (L, 3) of faces (F) in the unit square, each face flattened into a cell of its own."""
+    face = np.repeat(np.arange(len(counts)), counts)
+    starts = np.cumsum(counts) - counts
+    # Two axes across each normal.
+    away = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    first = np.cross(normals, away)
+    first /= np.maximum(np.linalg.norm(first, axis=1), 1e-12)[:, None]
+    axes = np.stack([first, np.cross(normals, first)], axis=1)
+    flat = np.einsum("lij,lj->li", axes[face], points)
+    low, high = np.minimum.reduceat(flat, starts), np.maximum.reduceat(flat, starts)
+    size = np.maximum((high - low).max(axis=1), 1e-12)
+    within = (flat - 0.5 * (low + high)[face]) / size[face, None]
+    side = math.ceil(math.sqrt(len(counts)))
+    cell = np.stack([face % side, face // side], axis=1)
+    return (cell + 0.5 + FILLED * within) / side
+
+
 def ensure_rest_position(head) -> None:
-    """Keeps the positions of the vertices as they are now, from which the hair is moved with a head that is deformed."""
+    """Keeps the positions of the vertices as they are now: those on which hair is solved, and from which it is moved with a head that is
+    deformed."""
     mesh = head.data
-    if REST_POSITION in mesh.attributes:
-        return
     points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", points)
-    mesh.attributes.new(REST_POSITION, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", points)
+    kept = mesh.attributes.get(REST_POSITION)
+    if kept is not None and (kept.data_type != "FLOAT_VECTOR" or kept.domain != "POINT"):
+        raise HeadError(f"{head.name} has an attribute `{REST_POSITION}` of another kind: rename or remove it")
+    if kept is not None:
+        before = np.empty_like(points)
+        kept.data.foreach_get("vector", before)
+        if np.array_equal(before, points):
+            return
+    check_editable(head)
+    kept = kept or mesh.attributes.new(REST_POSITION, "FLOAT_VECTOR", "POINT")
+    kept.data.foreach_set("vector", points)
+
+
+def modified(head) -> bool:
+    """Whether modifiers give the head other faces than its mesh has, such as those of Mirror and Subdivision Surface."""
+    shown = head.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return shown.type == "MESH" and len(shown.data.polygons) != len(head.data.polygons)
 
 
 def scalp_faces(head, group: str) -> set[int] | None:
@@ -104,10 +157,10 @@ def scalp_faces(head, group: str) -> set[int] | None:
 class Form:
     """What a solution depends on of a head: the arrays of its mesh in metres, z up."""
 
-    def __init__(self, head, group: str = ""):
+    def __init__(self, head, group: str = "", uv_map: str = ""):
         check(head)
         mesh = head.data
-        layer = mesh.uv_layers[ensure_uv_map(head)]
+        layer = mesh.uv_layers[ensure_uv_map(head, uv_map)]
         self.points = world_points(head)
         self.uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
         layer.uv.foreach_get("vector", self.uv)

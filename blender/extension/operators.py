@@ -6,7 +6,7 @@ import bpy
 import frisure
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
-from . import curves, grooms, head as heads, solver, thumbnails
+from . import curves, grooms, head as heads, properties, solver, thumbnails
 
 # How often (s) a computation is looked at. Chosen.
 TICK = 0.05
@@ -111,6 +111,12 @@ class Solving:
         groom = solution.hairstyle.report.get("groom")
         if groom is not None:
             text += f"; settled curves stay within {1000 * groom['median_distance']:.2g} mm in the median"
+            for name, what in (("left_out", "without length and left out"), ("off_skin", "rooted more than 1 cm off the head")):
+                if groom.get(name):
+                    kind, text = "WARNING", f"{text}; {groom[name]} of them {what}"
+        if solution.without_modifiers:
+            kind = "WARNING"
+            text += "; it grows on the mesh without its modifiers, which add faces: apply them (Mirror, Subdivision Surface) and add hair anew"
         self.report({kind}, text)
 
 
@@ -122,7 +128,7 @@ class OBJECT_OT_frisure_add(Solving, bpy.types.Operator):
 
     hair_type: EnumProperty(name="Hair type", items=thumbnails.hair_types, default=thumbnails.DEFAULT)
     length: FloatProperty(
-        name="Length", description="Mean length (m); 0 for that of the type", min=0.0, max=2.0, subtype="DISTANCE",
+        name="Length", description="Mean length; 0 for that of the type", min=0.0, soft_max=2.0, subtype="DISTANCE",
     )
     guides: bpy.props.IntProperty(
         name="Guides", description="Hairs that are solved; 0 for as many as the type has", min=0, max=20_000,
@@ -147,6 +153,7 @@ class OBJECT_OT_frisure_add(Solving, bpy.types.Operator):
         head = context.active_object
         heads.check(head)
         heads.scalp_faces(head, self.scalp)
+        heads.check_editable(head)
         hair = curves.new_object(head)
         self._made = hair.name
         kept = hair.frisure
@@ -189,6 +196,8 @@ grown and combed"""
             raise heads.HeadError(f"{hair.name} has no surface: set the mesh of the head in its data properties")
         heads.check(head)
         curves.read(hair)
+        if hair.library is not None or hair.data.library is not None:
+            raise heads.HeadError(f"{hair.name} is linked from another file: make it local, or override it")
         kept = hair.frisure
         surface = (hair.data.surface, hair.data.surface_uv_map)
         self._before = (hair.name, kept.head, kept.source, kept.scene, kept.hair_type, surface)
@@ -261,15 +270,15 @@ class OBJECT_OT_frisure_cut(Step, bpy.types.Operator):
     bl_label = "Cut"
 
     below: EnumProperty(name="Below", items=LEVELS, default="chin")
-    raised: FloatProperty(name="Raised by", description="Height of the line above the level (m)", subtype="DISTANCE")
+    raised: FloatProperty(name="Raised by", description="Height of the line above the level", subtype="DISTANCE")
     above_only: BoolProperty(
-        name="Only hair rooted above", description="Leave hair that is rooted below the line as it is", default=True,
+        name="Only hair rooted above", description="Leave hair that is rooted below the level as it is", default=True,
     )
 
     def step(self):
         keys = {"below": self.below}
         if self.raised:
-            keys["raise"] = f"{100 * self.raised:.6g} cm"
+            keys["raise"] = f"{100 * solver.metres(self.raised):.6g} cm"
         if self.above_only:
             # Hair of no length left is an error.
             keys["where"] = {"above": self.below}
@@ -372,9 +381,17 @@ class OBJECT_OT_frisure_export(bpy.types.Operator):
     def execute(self, context):
         hair = context.active_object
         try:
+            if properties.is_pending(hair):
+                properties.solve_now(hair)
             hairstyle = solver.last_hairstyle(hair)
-            if hairstyle is None:
-                solution = solver.Solution(hair, hair.frisure.scene)
+            solution = solver.Solution(hair, hair.frisure.scene)
+            if hairstyle is not None and solver.solved_on(hair, solution):
+                if solver.is_edited(hair, hairstyle):
+                    raise ValueError(
+                        f"The curves of {hair.name} were edited since they were solved: settle a copy of them to keep the edits (its "
+                        "frisure scene is then that of the copy), or make any step to have the solved hair again"
+                    )
+            else:
                 solution.solve()
                 solution.show(hair)
                 hairstyle = solution.hairstyle

@@ -25,6 +25,8 @@ class VIEW3D_PT_frisure(bpy.types.Panel):
             for line in kept.problem.splitlines():
                 box.label(text=line, icon="ERROR")
         layout.prop(kept, "head")
+        if kept.head is not None:
+            layout.prop_search(kept, "scalp", kept.head, "vertex_groups")
         column = layout.column()
         # Settled curves have their own length and curl.
         column.enabled = kept.source is None

@@ -6,7 +6,7 @@ import bpy
 import frisure
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from . import solver, thumbnails
+from . import curves, head as heads, solver, thumbnails
 from .draft import Draft
 
 # How long (s) a property has to stay as it is until the exact hair is solved, and how often this, and a running solution, is looked
@@ -30,6 +30,49 @@ def changed(properties, _context) -> None:
 _changed: dict[str, float] = {}
 _job: list = []
 
+# How often something was undone or redone: one entry each time.
+_undone: list[None] = []
+
+
+@bpy.app.handlers.persistent
+def undone(_scene, _graph=None) -> None:
+    """After undo and redo: hair whose scene is no longer that of its properties is solved again. Blender takes a changed property back as
+    a step of its own, without the hair that came after it."""
+    _undone.append(None)
+    for hair in bpy.data.objects:
+        if hair.type == "CURVES":
+            notice(hair)
+
+
+def notice(hair) -> None:
+    """Solves hair again, if its scene is not that of its properties."""
+    _changed.pop(hair.name, None)
+    properties = hair.frisure
+    if not properties.scene or properties.source is not None or hair.library is not None:
+        return
+    try:
+        same = solver.text_of(hair) == properties.scene
+    except (ValueError, frisure.FrisureError):
+        return
+    if not same:
+        changed(properties, None)
+
+
+def other_head(properties, context) -> None:
+    """Another head was chosen: the hair is bound to it, and hangs on it."""
+    hair, head = properties.id_data, properties.head
+    if head is None or hair.type != "CURVES" or not properties.scene or hair.data.surface == head:
+        return
+    try:
+        heads.check(head)
+        curves.attach(hair, head)
+    except ValueError as error:
+        properties.problem = solver.told(error)
+        return
+    if hair.parent is None or hair.parent.type == "MESH":
+        curves.hang(hair, head)
+    changed(properties, context)
+
 
 def look():
     """Solves what was changed; called by a timer of Blender. Returns when to look again (s), or None."""
@@ -39,10 +82,17 @@ def look():
             return LOOK_AT_JOB
         _job.clear()
         hair = bpy.data.objects.get(hair_name)
-        if hair is not None and job.error is None:
-            job.solution.show(hair)
-            if not job.solution.coarse and _changed.get(hair_name) == job.since:
-                del _changed[hair_name]
+        if hair is not None and job.undone != len(_undone):
+            # Undo has taken back what was solved; the object is as it was then, and is looked at anew.
+            notice(hair)
+        elif hair is not None and job.error is None:
+            try:
+                job.solution.show(hair)
+            except (ValueError, RuntimeError) as error:
+                job.error = error
+                hair.frisure.problem = solver.told(error)
+            if job.error is not None or (not job.solution.coarse and _changed.get(hair_name) == job.since):
+                _changed.pop(hair_name, None)
         elif job.error is not None:
             # The scene in the panel is wrong until it is changed again; the panel shows why.
             _changed.pop(hair_name, None)
@@ -55,7 +105,7 @@ def look():
             continue
         still = time.monotonic() - since > STILL
         try:
-            text = solver.with_steps(solver.scene_of(hair.frisure), hair.frisure.scene).text
+            text = solver.text_of(hair)
             draft = None if still else Draft.of(hair, solver.last_hairstyle(hair), text)
             solution = draft or solver.Solution(hair, text, coarse=not still)
         except (ValueError, frisure.FrisureError) as error:
@@ -64,17 +114,21 @@ def look():
             continue
         hair.frisure.problem = ""
         job = solver.Job(solution)
-        job.since = since
+        job.since, job.undone = since, len(_undone)
         _job.append((job, name))
         return LOOK_AT_JOB
     return LOOK if _changed else None
 
 
+def is_pending(hair) -> bool:
+    """Whether the exact hair of the properties is still to be solved."""
+    return hair.name in _changed
+
+
 def solve_now(hair) -> None:
     """Solves what the properties say, and waits for it: for scripts and tests."""
     _changed.pop(hair.name, None)
-    text = solver.with_steps(solver.scene_of(hair.frisure), hair.frisure.scene).text
-    solution = solver.Solution(hair, text)
+    solution = solver.Solution(hair, solver.text_of(hair))
     solution.solve()
     solution.show(hair)
 
@@ -90,7 +144,7 @@ class FrisureHair(bpy.types.PropertyGroup):
     problem: StringProperty(name="Problem", description="Why the hair was not solved")
     head: PointerProperty(
         name="Head", description="The mesh on which the hair grows", type=bpy.types.Object,
-        poll=lambda _self, other: other.type == "MESH",
+        poll=lambda _self, other: other.type == "MESH", update=other_head,
     )
     source: PointerProperty(
         name="Groom", description="The curves from which the hair was settled", type=bpy.types.Curves, poll=is_curves,
@@ -100,15 +154,15 @@ class FrisureHair(bpy.types.PropertyGroup):
         name="Hair type", items=thumbnails.hair_types, default=thumbnails.DEFAULT, update=changed,
     )
     length: FloatProperty(
-        name="Length", description="Mean length of the hair (m); 0 for that of the type", min=0.0, max=2.0, precision=3,
+        name="Length", description="Mean length of the hair; 0 for that of the type", min=0.0, soft_max=2.0, precision=3,
         step=1, subtype="DISTANCE", update=changed,
     )
     curl_radius: FloatProperty(
-        name="Curl radius", description="Radius of the natural curl (m); 0 for that of the type", min=0.0, max=1.0,
+        name="Curl radius", description="Radius of the natural curl; 0 for that of the type", min=0.0, soft_max=1.0,
         precision=4, step=0.1, subtype="DISTANCE", update=changed,
     )
     curl_pitch: FloatProperty(
-        name="Curl pitch", description="Advance of the curl in a turn (m); 0 for that of the type", min=0.0, max=1.0,
+        name="Curl pitch", description="Advance of the curl in a turn; 0 for that of the type", min=0.0, soft_max=1.0,
         precision=4, step=0.1, subtype="DISTANCE", update=changed,
     )
     guides: IntProperty(
@@ -131,11 +185,15 @@ class FrisureHair(bpy.types.PropertyGroup):
 def register():
     bpy.utils.register_class(FrisureHair)
     bpy.types.Object.frisure = PointerProperty(type=FrisureHair)
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.append(undone)
 
 
 def unregister():
     if bpy.app.timers.is_registered(look):
         bpy.app.timers.unregister(look)
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.remove(undone)
     _changed.clear()
     _job.clear()
     del bpy.types.Object.frisure

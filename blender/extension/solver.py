@@ -12,6 +12,7 @@ import weakref
 
 import bpy
 import frisure
+import numpy as np
 
 from . import curves, head as heads
 
@@ -21,9 +22,9 @@ COARSE_HAIRS = 1500
 
 # The keys of a scene for the properties of an object; 0 stands for what the hair type has.
 KEYS = {
-    "length": ("hair.length", lambda v: f"{100 * v:.6g} cm"),
-    "curl_radius": ("hair.curl.radius", lambda v: f"{1000 * v:.6g} mm"),
-    "curl_pitch": ("hair.curl.pitch", lambda v: f"{1000 * v:.6g} mm"),
+    "length": ("hair.length", lambda v: f"{100 * metres(v):.6g} cm"),
+    "curl_radius": ("hair.curl.radius", lambda v: f"{1000 * metres(v):.6g} mm"),
+    "curl_pitch": ("hair.curl.pitch", lambda v: f"{1000 * metres(v):.6g} mm"),
     "guides": ("wisps.count", int),
     "hairs": ("wisps.hairs", int),
     "points": ("wisps.points", int),
@@ -35,6 +36,11 @@ NO_CONTACT = {"contact.body": "none", "contact.hair": "none"}
 
 # The keys of `[hair.curl]` mean something only together.
 TOGETHER = ("hair.curl.radius", "hair.curl.pitch")
+
+
+def metres(value: float) -> float:
+    """A length in metres of a property, which Blender shows in the unit of the scene."""
+    return value * heads.metres_per_unit()
 
 
 class Cancelled(Exception):
@@ -60,12 +66,23 @@ def scene_of(properties) -> frisure.Scene:
     return scene
 
 
+def text_of(hair) -> str:
+    """The text of the scene that the properties of an object describe, with its steps."""
+    return with_steps(scene_of(hair.frisure), hair.frisure.scene).text
+
+
 def with_steps(scene: frisure.Scene, text: str) -> frisure.Scene:
     """The scene with the steps of another text."""
     for step in frisure.Scene.from_text(text).to_dict().get("step", []):
         ((operation, keys),) = step.items()
         scene = scene.with_step(operation, keys)
     return scene
+
+
+def solved_on(hair, solution) -> bool:
+    """Whether the hairstyle in memory was solved on the head, and from the groom, of a solution."""
+    _, _, files = _solved.get(hair.session_uid, ("", None, []))
+    return files == [f for f in (solution.head, solution.groom) if f]
 
 
 def last_hairstyle(hair):
@@ -110,6 +127,11 @@ class Solution:
 
     def __init__(self, hair, text: str, step=None, coarse=False):
         properties = hair.frisure
+        if hair.library is not None or hair.data.library is not None:
+            raise heads.HeadError(f"{hair.name} is linked from another file: make it local, or override it")
+        if hair.data.users > 1:
+            # Another object shows the same curves, with steps of its own.
+            hair.data = hair.data.copy()
         self.hair_name = hair.name
         self.session_uid = hair.session_uid
         self.text = text
@@ -119,7 +141,9 @@ class Solution:
         _, self.like, _ = _solved.get(hair.session_uid, ("", None, []))
         if properties.head is None or properties.head.name not in bpy.data.objects:
             raise heads.HeadError(f"The head of {hair.name} is gone: choose one in the panel")
-        form = heads.Form(properties.head, properties.scalp)
+        uv_map = hair.data.surface_uv_map if hair.data.surface == properties.head else ""
+        form = heads.Form(properties.head, properties.scalp, uv_map)
+        self.without_modifiers = not coarse and heads.modified(properties.head)
         self.head = input_file("head.obj", form.arrays, form.write)
         self.scalp = bool(properties.scalp)
         self.groom = None
@@ -153,6 +177,7 @@ class Solution:
 
     def show(self, hair) -> None:
         """Puts the hairs into the object."""
+        curves.attach(hair, hair.frisure.head)
         curves.write(hair, self.hairstyle.strands)
         scene = self.hairstyle.scene
         curves.set_material(hair, scene.number("look.eumelanin"), scene.number("look.pheomelanin"))
@@ -172,7 +197,7 @@ class _Placed:
     """Curves that are no object, at the place of one."""
 
     def __init__(self, data, hair):
-        self.data, self.name, self.matrix_world = data, data.name, hair.matrix_world
+        self.data, self.name, self.matrix_world = data, data.name, curves.matrix_of(hair)
 
 
 class Job:
@@ -211,6 +236,29 @@ class Job:
             raise self.error
 
 
+# What errors of the library say to who writes scenes, and what that is in Blender.
+IN_BLENDER = (
+    ("does not stand upright", "The head does not stand upright with its face towards -y: rotate the object until it does"),
+    ("of the groom's strands are rooted", "Most curves are rooted off the head: move or scale them onto its surface first"),
+)
+
+
 def told(error: BaseException) -> str:
     """An error for the status line: the problem, the place and the hint."""
-    return "\n".join(line for line in str(error).splitlines() if line.strip()) or type(error).__name__
+    text = str(error)
+    for said, here in IN_BLENDER:
+        if said in text:
+            return here
+    lines = [line.removeprefix("error: ") for line in text.splitlines() if line.strip()]
+    return "\n".join(lines) or type(error).__name__
+
+
+def is_edited(hair, hairstyle) -> bool:
+    """Whether the points of an object are others than those that were solved."""
+    points, _ = curves.read(hair)
+    solved = hairstyle.strands.points
+    return points.shape != solved.shape or float(np.abs(points - solved).max()) > EDITED
+
+
+# Difference of a point (m) from where it was solved that counts as an edit: well above the rounding of 32-bit numbers. Chosen.
+EDITED = 1e-4

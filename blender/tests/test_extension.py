@@ -89,7 +89,8 @@ def test_hair_is_that_of_the_library_on_a_head_that_is_moved_and_scaled(head, tm
     bpy.context.scene.unit_settings.scale_length = 0.01
     head.scale = [100.0 * s for s in head.scale]
     bpy.context.view_layer.update()
-    hair = grown(head, hair_type="caucasian-curly", length=0.12)
+    # Lengths are in the unit of the scene.
+    hair = grown(head, hair_type="caucasian-curly", length=12)
     written_here(head, tmp_path / "head.obj")
     strands = library(hair, tmp_path / "head.obj").strands
     assert len(hair.data.curves) == len(strands) == 150
@@ -506,6 +507,140 @@ def test_what_is_wrong_is_told(head):
     assert bpy.ops.object.frisure_wet() == {"FINISHED"}
     bpy.data.objects.remove(head)
     refused(bpy.ops.object.frisure_take_back, "is gone")
+
+
+def test_undo_of_a_step_does_not_bring_back_hair_of_other_properties(head):
+    bpy.ops.ed.undo_push(message="start")
+    bpy.ops.object.frisure_add("EXEC_DEFAULT", True, length=0.1, **FEW)
+    hair = next(o for o in bpy.data.objects if o.type == "CURVES")
+    hair.frisure.length = 0.3
+    bpy.ops.ed.undo_push(message="Length")
+    module("properties").solve_now(hair)
+    long = world(hair)
+    bpy.context.view_layer.objects.active = hair
+    bpy.ops.object.frisure_wet("EXEC_DEFAULT", True)
+    bpy.ops.ed.undo()
+    hair = next(o for o in bpy.data.objects if o.type == "CURVES")
+    assert np.isclose(hair.frisure.length, 0.3) and module("properties").is_pending(hair)
+    module("properties").solve_now(hair)
+    assert np.abs(world(hair) - long).max() < 1e-6
+
+
+def follows(hair, head) -> np.ndarray:
+    """How far (m) each root moves with a head that a shape key moves by 0.05 units, through Blender's own node."""
+    before = world(hair)[[curve.first_point_index for curve in hair.data.curves]]
+    head.shape_key_add(name="Basis")
+    lifted = head.shape_key_add(name="lifted")
+    for point in lifted.data:
+        point.co.z += 0.05
+    lifted.value = 1.0
+    tree = bpy.data.node_groups.new("deform", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    nodes = [tree.nodes.new(kind) for kind in ("NodeGroupInput", "GeometryNodeDeformCurvesOnSurface", "NodeGroupOutput")]
+    for a, b in zip(nodes, nodes[1:]):
+        tree.links.new(a.outputs[0], b.inputs[0])
+    hair.modifiers.new("deform", "NODES").node_group = tree
+    bpy.context.view_layer.update()
+    shown = hair.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    after = world(SimpleNamespace(data=shown.data, matrix_world=hair.matrix_world))
+    return np.linalg.norm(after[[curve.first_point_index for curve in shown.data.curves]] - before, axis=1)
+
+
+def test_every_root_has_one_place_on_a_mesh_without_texture_coordinates(head):
+    head.data.uv_layers.remove(head.data.uv_layers[0])
+    hair = grown(head, length=0.05)
+    assert hair.data.surface_uv_map == "frisure"
+    size = head.matrix_world.to_scale().z
+    assert np.allclose(follows(hair, head), 0.05 * size, atol=1e-3)
+
+
+def test_another_active_map_leaves_the_hair_bound(head):
+    hair = grown(head, length=0.05)
+    head.data.uv_layers.active = head.data.uv_layers.new(name="second")
+    bpy.ops.object.frisure_wet()
+    assert hair.data.surface_uv_map != "second"
+    assert np.allclose(follows(hair, head), 0.05 * head.matrix_world.to_scale().z, atol=1e-3)
+
+
+def test_materials_of_the_artist_stay(head):
+    hair = grown(head, length=0.05)
+    copied = bpy.data.objects.new("plain", hair.data.copy())
+    bpy.context.scene.collection.objects.link(copied)
+    copied.matrix_world = hair.matrix_world
+    own = bpy.data.materials.new("own")
+    copied.data.materials.clear()
+    copied.data.materials.append(own)
+    bpy.context.view_layer.objects.active = copied
+    bpy.context.view_layer.update()
+    kinds = [node.bl_idname for node in own.node_tree.nodes] if own.node_tree else []
+    assert bpy.ops.object.frisure_settle() == {"FINISHED"}
+    assert copied.active_material == own
+    assert kinds == ([node.bl_idname for node in own.node_tree.nodes] if own.node_tree else [])
+    # A duplicate with another colour gets a material of its own.
+    other = hair.copy()
+    other.data = hair.data.copy()
+    bpy.context.scene.collection.objects.link(other)
+    first = hair.active_material
+    other.frisure.hair_type = "asian-straight"
+    module("properties").solve_now(other)
+    assert hair.active_material == first and other.active_material != first
+
+
+def test_the_head_can_be_moved_changed_and_edited(head, tmp_path):
+    hair = grown(head, length=0.05)
+    other = head.copy()
+    other.data = head.data.copy()
+    bpy.context.scene.collection.objects.link(other)
+    other.location.x += 1.0
+    bpy.context.view_layer.update()
+    hair.frisure.head = other
+    bpy.context.view_layer.objects.active = hair
+    bpy.ops.object.frisure_wet()
+    assert hair.data.surface == other and hair.parent == other
+    assert 0.8 < world(hair)[:, 0].mean() < 1.2
+    # A groom is that of the head where it is now; one that was edited is not written as if it was not.
+    other.location.x += 1.0
+    bpy.context.view_layer.update()
+    bpy.ops.object.frisure_export(filepath=str(tmp_path / "hair.obj"))
+    points = [line.split()[1:] for line in (tmp_path / "hair.obj").read_text().splitlines() if line.startswith("v ")]
+    assert abs(np.array(points, float)[:, 0].mean() - world(hair)[:, 0].mean()) < 1e-3
+    hair.data.attributes["position"].data[0].vector.z += 0.01
+    refused(bpy.ops.object.frisure_export, "were edited", filepath=str(tmp_path / "edited.obj"))
+    # What the mesh is when hair is solved is where Blender moves it from.
+    other.data.vertices[0].co.x += 0.01
+    bpy.ops.object.frisure_wet()
+    rest = other.data.attributes["rest_position"].data[0].vector
+    assert (rest - other.data.vertices[0].co).length < 1e-6
+    bpy.context.view_layer.objects.active = other
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.view_layer.objects.active = hair
+    refused(bpy.ops.object.frisure_dry, "Edit Mode")
+
+
+def test_curves_that_do_not_go_through_their_points_are_refused(head):
+    hair = grown(head, length=0.05)
+    copied = bpy.data.objects.new("plain", hair.data.copy())
+    bpy.context.scene.collection.objects.link(copied)
+    copied.matrix_world = hair.matrix_world
+    bpy.context.view_layer.objects.active = copied
+    bpy.context.view_layer.update()
+    copied.data.set_types(type="NURBS")
+    refused(bpy.ops.object.frisure_settle, "NURBS")
+    copied.data.set_types(type="POLY")
+    copied.data.attributes.new("own", "INT", "CURVE").data.foreach_set("value", list(range(150)))
+    assert bpy.ops.object.frisure_settle() == {"FINISHED"}
+    assert [x.value for x in copied.data.attributes["own"].data] == list(range(150))
+
+
+def test_two_objects_with_the_same_curves_have_steps_of_their_own(head):
+    hair = grown(head, length=0.05)
+    other = hair.copy()
+    bpy.context.scene.collection.objects.link(other)
+    before = world(hair)
+    bpy.context.view_layer.objects.active = other
+    bpy.ops.object.frisure_wet()
+    assert other.data != hair.data and np.array_equal(world(hair), before)
 
 
 def test_an_empty_mesh_is_no_head():
