@@ -63,7 +63,7 @@ pub(crate) fn blind_directions(
     let strain = k.hypot(t).max(std::f64::consts::TAU / unknowns.length[0].exp());
     let middle = layout.knots / 2;
     let indices =
-        [layout.curvature(middle), layout.torsion(middle), layout.stiffness(0), layout.ratio()];
+        [layout.curvature(middle), layout.torsion(middle), layout.stiffness(0), layout.ratio(0)];
     let mut relative = covariance.part(&indices);
     for i in 0..4 {
         for j in 0..=i {

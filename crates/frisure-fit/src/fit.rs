@@ -9,11 +9,12 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
 
 use crate::blind::{Blind, blind_directions};
+use crate::dense::Symmetric;
 use crate::known::{Estimate, Known, Options};
 use crate::pose::Fibre;
 use crate::solve::{Job, Minimum, run, shared_information};
 use crate::start::elements;
-use crate::unknowns::Unknowns;
+use crate::unknowns::{Layout, Unknowns};
 
 /// How a fit ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -43,8 +44,13 @@ pub struct Fit {
     pub curl_pitch: Estimate,
     /// EI/(ρSg) (m³) in each state of wetness, with the smaller bending stiffness and g = 9.81 m/s².
     pub stiffness_over_weight: Vec<Estimate>,
-    /// GJ/EI.
+    /// GJ/EI in the first state.
     pub torsion_ratio: Estimate,
+    /// GJ/EI in each state of wetness.
+    pub torsion_ratio_by_state: Vec<Estimate>,
+    /// Longer over shorter axis of the section: the root of the bending stiffness across the natural curl over that along it. Lines seldom
+    /// tell it; what is known of it decides how well they tell EI/(ρSg).
+    pub axis_ratio: Estimate,
     /// Length (m) in each state of wetness.
     pub length: Vec<Estimate>,
     /// Natural curvature and torsion (rad/m) at each knot, if there are several.
@@ -140,29 +146,7 @@ impl Fit {
         let covariance = factor.inverse();
         let turned = at.unknowns.clone().with_positive_curvature();
         let sign = if at.unknowns.mean_strain().0 < 0.0 { -1.0 } else { 1.0 };
-        // Means over the knots as combinations of the unknowns.
-        let share = (layout.knots as f64).recip();
-        let combination = |first: usize, weight: f64| {
-            let mut row = vec![0.0; layout.shared()];
-            row[first..first + layout.knots].fill(weight * share);
-            row
-        };
-        let unit = |unknown: usize| {
-            let mut row = vec![0.0; layout.shared()];
-            row[unknown] = 1.0;
-            row
-        };
-        let rows = [
-            combination(layout.curvature(0), sign),
-            combination(layout.torsion(0), 1.0),
-            unit(layout.stiffness(0)),
-            unit(layout.ratio()),
-        ];
-        let between = |a: &[f64], b: &[f64]| -> f64 {
-            let row = |i: usize| -> f64 { (0..b.len()).map(|j| covariance.at(i, j) * b[j]).sum() };
-            (0..a.len()).map(|i| a[i] * row(i)).sum()
-        };
-        let matrix = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| between(&rows[i], &rows[j])));
+        let matrix = covariance_of_means(layout, &covariance, sign);
         let deviation = |unknown: usize| covariance.at(unknown, unknown).max(0.0).sqrt();
         let positive = |logarithm: f64, unknown: usize| {
             let value = logarithm.exp();
@@ -191,7 +175,15 @@ impl Fit {
                 .clone()
                 .map(|s| positive(turned.stiffness[s], layout.stiffness(s)))
                 .collect(),
-            torsion_ratio: positive(turned.ratio, layout.ratio()),
+            torsion_ratio: positive(turned.ratio[0], layout.ratio(0)),
+            torsion_ratio_by_state: states
+                .clone()
+                .map(|s| positive(turned.ratio[s], layout.ratio(s)))
+                .collect(),
+            axis_ratio: {
+                let value = (0.5 * turned.section).exp();
+                Estimate { value, deviation: 0.5 * value * deviation(layout.section()) }
+            },
             length: states.map(|s| positive(turned.length[s], layout.length(s))).collect(),
             profile: match layout.knots {
                 1 => Vec::new(),
@@ -219,6 +211,8 @@ impl Fit {
             curl_pitch: unknown,
             stiffness_over_weight: vec![unknown; job.layout.states],
             torsion_ratio: unknown,
+            torsion_ratio_by_state: vec![unknown; job.layout.states],
+            axis_ratio: unknown,
             length: vec![unknown; job.layout.states],
             profile: match job.layout.knots {
                 1 => Vec::new(),
@@ -234,6 +228,31 @@ impl Fit {
             iterations: job.iterations,
         }
     }
+}
+
+/// The covariance of the means of curvature, times `sign`, and torsion over the knots, and of the logarithms of EI/(ρSg) and GJ/EI in the first state.
+fn covariance_of_means(layout: Layout, covariance: &Symmetric, sign: f64) -> [[f64; 4]; 4] {
+    let mean = |first: usize, weight: f64| {
+        let mut row = vec![0.0; layout.shared()];
+        row[first..first + layout.knots].fill(weight / layout.knots as f64);
+        row
+    };
+    let unit = |unknown: usize| {
+        let mut row = vec![0.0; layout.shared()];
+        row[unknown] = 1.0;
+        row
+    };
+    let rows = [
+        mean(layout.curvature(0), sign),
+        mean(layout.torsion(0), 1.0),
+        unit(layout.stiffness(0)),
+        unit(layout.ratio(0)),
+    ];
+    let between = |a: &[f64], b: &[f64]| -> f64 {
+        let row = |i: usize| -> f64 { (0..b.len()).map(|j| covariance.at(i, j) * b[j]).sum() };
+        (0..a.len()).map(|i| a[i] * row(i)).sum()
+    };
+    [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| between(&rows[i], &rows[j])))
 }
 
 /// Radius and pitch (m) of the helix of a curvature and a torsion (rad/m), with deviations to first order.
@@ -268,11 +287,7 @@ fn roots(job: &Job<'_>, unknowns: &Unknowns) -> Vec<(DVec3, DMat3)> {
 
 impl Job<'_> {
     /// What the points and what is known tell of the shared unknowns, with the roots eliminated.
-    fn information(
-        &self,
-        unknowns: &Unknowns,
-        data: &crate::observe::Normal,
-    ) -> crate::dense::Symmetric {
+    fn information(&self, unknowns: &Unknowns, data: &crate::observe::Normal) -> Symmetric {
         shared_information(self.layout, &self.with_priors(unknowns, data).matrix)
     }
 }

@@ -274,7 +274,8 @@ impl Rods<'_> {
         let layout = self.layout;
         let turn = layout.pose(pose) + 3;
         (0..2 * layout.knots)
-            .chain([layout.stiffness(state), layout.ratio(), layout.length(state)])
+            .chain([layout.stiffness(state), layout.ratio(state)])
+            .chain([layout.section(), layout.length(state)])
             .chain(turn..turn + 3)
             .collect()
     }

@@ -86,7 +86,8 @@ pub fn json(entries: &[Entry<'_>]) -> String {
     };
     let units = json!({
         "curvature": "rad/m", "torsion": "rad/m", "curl_radius": "m", "curl_pitch": "m", "length": "m", "noise": "m",
-        "stiffness_over_weight": "m^3: EI/(rho S g) at g = 9.81 m/s^2", "torsion_ratio": "GJ/EI",
+        "stiffness_over_weight": "m^3: EI/(rho S g) at g = 9.81 m/s^2", "torsion_ratio": "GJ/EI in the first state",
+        "torsion_ratio_by_state": "GJ/EI", "axis_ratio": "longer over shorter axis of the section",
         "covariance": "of curvature, torsion (rad/m), ln stiffness_over_weight, ln torsion_ratio",
     });
     let fibres: Vec<Value> = entries.iter().map(one).collect();

@@ -6,7 +6,10 @@ use frisure_rod::{Rod, Stability};
 use glam::DVec3;
 
 use crate::dense::Symmetric;
-use crate::known::{Estimate, Known, USUAL_STIFFNESS, USUAL_TORSION_RATIO};
+use crate::known::{
+    Estimate, Known, TORSION_RATIO_OF_STATES, USUAL_AXIS_RATIO, USUAL_STIFFNESS,
+    USUAL_TORSION_RATIO, of_ellipse,
+};
 use crate::observe::{Normal, Observed, Rods, spacing};
 use crate::pose::Fibre;
 use crate::start::{Expected, noise_of, start};
@@ -46,7 +49,6 @@ pub(crate) struct Job<'a> {
     pub(crate) fibre: &'a Fibre,
     pub(crate) layout: Layout,
     pub(crate) priors: Vec<(usize, f64, f64)>,
-    pub(crate) axis_ratio: f64,
     pub(crate) observed: Vec<Observed>,
     /// Standard deviation of a coordinate (m): given, or estimated so far.
     pub(crate) noise: f64,
@@ -126,17 +128,16 @@ impl<'a> Job<'a> {
         let at = |unknown: usize| {
             priors.iter().find(|prior| prior.0 == unknown).map_or(0.0, |prior| prior.1)
         };
-        let stiffness: Vec<f64> =
-            (0..layout.states).map(|state| at(layout.stiffness(state)).exp()).collect();
-        let ratio = at(layout.ratio()).exp();
-        let axis_ratio = known.axis_ratio;
+        let states = 0..layout.states;
+        let stiffness = states.clone().map(|state| at(layout.stiffness(state)).exp()).collect();
+        let ratio = states.map(|state| at(layout.ratio(state)).exp()).collect();
+        let axis_ratio = (0.5 * at(layout.section())).exp();
         let expected = Expected { stiffness, ratio, axis_ratio, knots, noise: sigma };
         let trial = start(fibre, &observed, &expected, 0).expect("a first start");
         let mut job = Self {
             fibre,
             layout,
             priors,
-            axis_ratio,
             observed,
             noise: sigma,
             given_noise: noise.is_some(),
@@ -189,7 +190,7 @@ impl<'a> Job<'a> {
     /// The rods of some unknowns; `None`, if they make none.
     fn rods(&self, unknowns: &Unknowns) -> Option<Vec<Rod>> {
         let poses = self.fibre.poses().iter().enumerate();
-        poses.map(|(i, pose)| unknowns.rod(pose, i, self.axis_ratio)).collect()
+        poses.map(|(i, pose)| unknowns.rod(pose, i)).collect()
     }
 
     /// The sums of all points, and of what is known.
@@ -317,8 +318,18 @@ fn priors(fibre: &Fibre, layout: Layout, known: &Known) -> Vec<(usize, f64, f64)
             priors.push((layout.length(state), length.ln(), EXACT));
         }
     }
-    let (value, deviation) = logarithm(known.torsion_ratio, USUAL_TORSION_RATIO);
-    priors.push((layout.ratio(), value, deviation));
+    let (axis_ratio, deviation) = logarithm(known.axis_ratio, USUAL_AXIS_RATIO);
+    priors.push((layout.section(), 2.0 * axis_ratio, 2.0 * deviation));
+    let usual = USUAL_TORSION_RATIO.value * of_ellipse(axis_ratio.exp());
+    for state in 0..layout.states {
+        let of_state = known.torsion_ratio.filter(|_| state == 0);
+        let deviation = match state {
+            0 => USUAL_TORSION_RATIO.deviation,
+            _ => TORSION_RATIO_OF_STATES,
+        };
+        let (value, deviation) = logarithm(of_state, Estimate { value: usual, deviation });
+        priors.push((layout.ratio(state), value, deviation));
+    }
     // What is known of the mean over the knots is known of each, with a deviation that makes it so.
     let spread = (layout.knots as f64).sqrt();
     for knot in 0..layout.knots {
@@ -494,16 +505,18 @@ impl Solver {
 }
 
 impl Unknowns {
-    /// The value of one that something may be known of: strain, stiffness, ratio or length.
+    /// The value of one that something may be known of: strain, stiffness, ratio, section or length.
     fn value(&self, layout: Layout, unknown: usize) -> f64 {
         if unknown < layout.torsion(0) {
             self.strain[unknown].0
         } else if unknown < layout.stiffness(0) {
             self.strain[unknown - layout.torsion(0)].1
-        } else if unknown < layout.ratio() {
+        } else if unknown < layout.ratio(0) {
             self.stiffness[unknown - layout.stiffness(0)]
-        } else if unknown == layout.ratio() {
-            self.ratio
+        } else if unknown < layout.section() {
+            self.ratio[unknown - layout.ratio(0)]
+        } else if unknown == layout.section() {
+            self.section
         } else {
             self.length[unknown - layout.length(0)]
         }

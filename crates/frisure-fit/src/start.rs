@@ -82,11 +82,11 @@ impl Polyline {
     }
 
     /// The natural strain (rad/m) with which a fibre of this EI/(ρSg) (m³) hangs so, on average. docs/theory.md (I1)
-    fn natural(&self, gravity: f64, stiffness: f64, expected: &Expected) -> DVec3 {
+    fn natural(&self, pose: &Pose, stiffness: f64, expected: &Expected) -> DVec3 {
         let count = self.points.len();
-        let [across, twist] = [expected.axis_ratio.powi(-2), expected.ratio.recip()];
+        let [across, twist] = [expected.axis_ratio.powi(-2), expected.ratio[pose.state()].recip()];
         let soft = DVec3::new(1.0, across, twist) / stiffness;
-        let weight = DVec3::NEG_Z * (gravity / STANDARD_GRAVITY);
+        let weight = DVec3::NEG_Z * (pose.gravity().length() / STANDARD_GRAVITY);
         // First moment of what is beyond a vertex, about it.
         let (mut sum, mut moment, mut beyond) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for i in (1..count - 1).rev() {
@@ -176,9 +176,9 @@ const STARTS: [(usize, usize, f64); 9] = [
 
 /// What is expected of a fibre before its lines are looked at.
 pub(crate) struct Expected {
-    /// EI/(ρSg) (m³) in each state, GJ/EI, and the axis ratio.
+    /// EI/(ρSg) (m³) and GJ/EI in each state, and the axis ratio.
     pub(crate) stiffness: Vec<f64>,
-    pub(crate) ratio: f64,
+    pub(crate) ratio: Vec<f64>,
     pub(crate) axis_ratio: f64,
     /// Knots of the natural strain, and standard deviation of a coordinate (m).
     pub(crate) knots: usize,
@@ -213,7 +213,7 @@ fn from_lines(
     let mut roots = Vec::with_capacity(polylines.len());
     for ((pose, line), observed) in fibre.poses().iter().zip(polylines).zip(observed) {
         let stiffness = expected.stiffness[pose.state()] * factor;
-        let natural = line.natural(pose.gravity().length(), stiffness, expected);
+        let natural = line.natural(pose, stiffness, expected);
         // Bending that is natural is about d1: the frame turns to it.
         let share = polylines.len() as f64;
         strain.0 += natural.x.hypot(natural.y) / share;
@@ -231,7 +231,8 @@ fn from_lines(
     Unknowns {
         strain: vec![strain; expected.knots],
         stiffness: expected.stiffness.iter().map(|b| (b * factor).ln()).collect(),
-        ratio: expected.ratio.ln(),
+        ratio: expected.ratio.iter().map(|ratio| ratio.ln()).collect(),
+        section: 2.0 * expected.axis_ratio.ln(),
         length: (0..fibre.states()).map(length).collect(),
         roots,
     }

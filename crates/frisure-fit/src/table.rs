@@ -23,9 +23,14 @@ pub enum TableError {
         "there is no column `{0}`; the first line has the headings x, y, z, and if wanted fibre, pose, s, gx, gy, gz, state"
     )]
     Column(&'static str),
-    /// A length without a unit.
-    #[error("the heading `{0}` has no unit; write `{0} (mm)`, or m, cm, um")]
-    Unit(String),
+    /// A length without a unit that is known.
+    #[error("the heading `{heading}` has no unit that is known; write `{name} (mm)`, or m, cm, um")]
+    Unit {
+        /// The heading.
+        heading: String,
+        /// What it is about.
+        name: String,
+    },
     /// A cell that is no number.
     #[error("line {line}: `{value}` in the column `{column}` is no finite number")]
     Number {
@@ -142,7 +147,13 @@ pub fn read_table(text: &str, length: Option<f64>) -> Result<Vec<NamedFibre>, Ta
 
 fn malformed(error: csv::Error) -> TableError {
     let line = error.position().map_or(1, csv::Position::line);
-    TableError::Malformed { line, problem: error.to_string() }
+    let problem = match error.kind() {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!("the row has {len} cells, and there are {expected_len} headings")
+        }
+        _ => error.to_string(),
+    };
+    TableError::Malformed { line, problem }
 }
 
 impl Columns {
@@ -159,7 +170,10 @@ impl Columns {
                 "cm" => 1e-2,
                 "mm" => 1e-3,
                 "um" | "µm" | "μm" => 1e-6,
-                _ => return Err(TableError::Unit(heading.clone())),
+                _ => {
+                    let (heading, name) = (heading.clone(), name(heading));
+                    return Err(TableError::Unit { heading, name });
+                }
             };
             Ok((column, factor))
         };
@@ -262,12 +276,16 @@ mod tests {
     #[test]
     fn errors_have_the_line() {
         let error = |text: &str| read_table(text, None).unwrap_err().to_string();
-        assert!(error("x,y,z\n").contains("`x` has no unit; write `x (mm)`"));
+        assert!(error("x,y,z\n").contains("`x` has no unit that is known; write `x (mm)`"));
+        assert!(
+            error("x (in),y,z\n").contains("`x (in)` has no unit that is known; write `x (mm)`")
+        );
         assert!(error("x (mm),y (mm)\n").contains("no column `z`"));
         let bad =
             table("x (mm),y (mm),z (mm)", |i| format!("{i},0,{}", if i == 2 { "ha" } else { "1" }));
         assert_eq!(error(&bad), "line 5: `ha` in the column `z (mm)` is no finite number");
-        assert!(error("x (mm),y (mm),z (mm)\n1,2\n").starts_with("line 2: "));
+        let short = error("x (mm),y (mm),z (mm)\n1,2\n");
+        assert_eq!(short, "line 2: the row has 2 cells, and there are 3 headings");
         assert!(error("x (mm),y (mm),z (mm),gx\n").contains("no column `gy`"));
     }
 }

@@ -18,8 +18,8 @@ const DENSITY: f64 = 1300.0;
 /// Unknowns of a pose: position of the root (m) and rotation of its frame (rad).
 pub(crate) const OF_POSE: usize = 6;
 
-/// Which unknowns a fibre has: curvatures and torsions at knots, the logarithm of EI/(ρSg) of each state, that of GJ/EI, that of the length of each state,
-/// and those of each pose.
+/// Which unknowns a fibre has: curvatures and torsions at knots, the logarithms of EI/(ρSg) and of GJ/EI of each state, that of the larger over the
+/// smaller bending stiffness, that of the length of each state, and those of each pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) knots: usize,
@@ -44,17 +44,21 @@ impl Layout {
         2 * self.knots + state
     }
 
-    pub(crate) fn ratio(self) -> usize {
-        2 * self.knots + self.states
+    pub(crate) fn ratio(self, state: usize) -> usize {
+        2 * self.knots + self.states + state
+    }
+
+    pub(crate) fn section(self) -> usize {
+        2 * (self.knots + self.states)
     }
 
     pub(crate) fn length(self, state: usize) -> usize {
-        2 * self.knots + self.states + 1 + state
+        self.section() + 1 + state
     }
 
     /// How many unknowns all poses share.
     pub(crate) fn shared(self) -> usize {
-        2 * self.knots + 2 * self.states + 1
+        2 * self.knots + 3 * self.states + 1
     }
 
     /// The first unknown of a pose.
@@ -72,9 +76,11 @@ impl Layout {
 pub(crate) struct Unknowns {
     /// Natural curvature about d1 and torsion (rad/m) at each knot.
     pub(crate) strain: Vec<(f64, f64)>,
-    /// ln EI/(ρSg) (m³) of each state, and ln GJ/EI.
+    /// ln EI/(ρSg) (m³) and ln GJ/EI of each state, with EI about d1.
     pub(crate) stiffness: Vec<f64>,
-    pub(crate) ratio: f64,
+    pub(crate) ratio: Vec<f64>,
+    /// The logarithm of the bending stiffness about d2 over that about d1; it is negative where noise makes it so.
+    pub(crate) section: f64,
     /// ln L (m) of each state.
     pub(crate) length: Vec<f64>,
     /// Position of the root (m) and its frame, of each pose; z is up.
@@ -99,7 +105,8 @@ impl Unknowns {
         Self {
             strain: self.strain.iter().enumerate().map(strain).collect(),
             stiffness: states(&self.stiffness, layout.stiffness(0)),
-            ratio: self.ratio + step[layout.ratio()],
+            ratio: states(&self.ratio, layout.ratio(0)),
+            section: self.section + step[layout.section()],
             length: states(&self.length, layout.length(0)),
             roots: self.roots.iter().enumerate().map(root).collect(),
         }
@@ -118,13 +125,15 @@ impl Unknowns {
     }
 
     /// The rod of a pose; `None` if the numbers make none. In the axes of the rod, gravity is along −z.
-    pub(crate) fn rod(&self, pose: &Pose, index: usize, axis_ratio: f64) -> Option<Rod> {
-        let section = Section::from_diameter(DIAMETER, axis_ratio).ok()?;
+    pub(crate) fn rod(&self, pose: &Pose, index: usize) -> Option<Rod> {
+        // I2/I1 = (a/b)².
+        let root = (0.25 * self.section).exp();
+        let section = Section::from_semi_axes(0.5 * DIAMETER * root, 0.5 * DIAMETER / root).ok()?;
         let torsion = TorsionConstant::SaintVenant;
         let bending =
             self.stiffness[pose.state()].exp() * DENSITY * section.area() * STANDARD_GRAVITY;
-        let young = bending / section.i1().min(section.i2());
-        let shear = bending * self.ratio.exp() / section.j(torsion);
+        let young = bending / section.i1();
+        let shear = bending * self.ratio[pose.state()].exp() / section.j(torsion);
         let length = self.length[pose.state()].exp();
         let (position, frame) = self.roots[index];
         Rod::new(RodSpec {
@@ -167,7 +176,7 @@ impl Unknowns {
     }
 }
 
-/// The directions of a rod's parameters, in the order of [`Layout`]: curvatures, torsions, stiffness over weight, torsion ratio, length, and three rotations of the root.
+/// The directions of a rod's parameters, in the order of [`Layout`]: curvatures, torsions, stiffness over weight, torsion ratio, section, length, and three rotations of the root.
 pub(crate) fn directions(knots: usize, elements: usize) -> Vec<Direction> {
     let mut directions = Vec::new();
     for axis in [DVec3::X, DVec3::Z] {
@@ -179,6 +188,7 @@ pub(crate) fn directions(knots: usize, elements: usize) -> Vec<Direction> {
     // Only the ratio of stiffness and weight counts: a stiffer rod is a lighter one.
     directions.push(Direction { weight: -1.0, ..Direction::default() });
     directions.push(Direction { stiffness: DVec3::Z, ..Direction::default() });
+    directions.push(Direction { stiffness: DVec3::Y, ..Direction::default() });
     directions.push(Direction { length: 1.0, ..Direction::default() });
     for root_rotation in [DVec3::X, DVec3::Y, DVec3::Z] {
         directions.push(Direction { root_rotation, ..Direction::default() });
@@ -235,11 +245,12 @@ mod tests {
         let layout = Layout { knots: 3, states: 2, poses: 2 };
         let mut places: Vec<usize> =
             (0..3).flat_map(|k| [layout.curvature(k), layout.torsion(k)]).collect();
-        places.extend([layout.ratio(), layout.stiffness(0), layout.stiffness(1)]);
+        places.extend([layout.stiffness(0), layout.stiffness(1)]);
+        places.extend([layout.ratio(0), layout.ratio(1), layout.section()]);
         places.extend([layout.length(0), layout.length(1)]);
         places.sort_unstable();
         assert_eq!(places, (0..layout.shared()).collect::<Vec<_>>());
         assert_eq!(layout.len(), layout.shared() + 12);
-        assert_eq!(directions(3, 5).len(), 2 * 3 + 3 + 3);
+        assert_eq!(directions(3, 5).len(), 2 * 3 + 4 + 3);
     }
 }

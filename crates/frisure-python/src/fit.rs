@@ -109,7 +109,7 @@ impl KnownArrays<'_> {
             torsion_ratio: estimate(&self.torsion_ratio),
             curvature: estimate(&self.curvature),
             torsion: estimate(&self.torsion),
-            axis_ratio: estimate(&self.axis_ratio).map_or(1.0, |estimate| estimate.value),
+            axis_ratio: estimate(&self.axis_ratio),
         };
         let told = |problem: KnownError| {
             let key = match problem.quantity {
@@ -126,8 +126,8 @@ impl KnownArrays<'_> {
     }
 }
 
-/// Curvature, torsion, radius, pitch and GJ/EI, each with its deviation; noise, reduced square; status, iterations.
-fn numbers(fit: &Fit) -> [f64; 14] {
+/// Curvature, torsion, radius, pitch, GJ/EI and axis ratio, each with its deviation; noise, reduced square; status, iterations.
+fn numbers(fit: &Fit) -> [f64; 16] {
     let pair = |estimate: Estimate| [estimate.value, estimate.deviation];
     let pairs = [
         pair(fit.curvature),
@@ -135,10 +135,11 @@ fn numbers(fit: &Fit) -> [f64; 14] {
         pair(fit.curl_radius),
         pair(fit.curl_pitch),
         pair(fit.torsion_ratio),
+        pair(fit.axis_ratio),
         [fit.noise, fit.reduced_square],
         [status(fit), fit.iterations as f64],
     ];
-    let mut all = [0.0; 14];
+    let mut all = [0.0; 16];
     for (place, number) in all.iter_mut().zip(pairs.into_iter().flatten()) {
         *place = number;
     }
@@ -184,6 +185,7 @@ pub(crate) fn fit_fibres<'py>(
     found.set_item("numbers", fits.iter().map(numbers).collect::<Vec<_>>())?;
     found.set_item("stiffness", by_state(|fit| &fit.stiffness_over_weight))?;
     found.set_item("length", by_state(|fit| &fit.length))?;
+    found.set_item("torsion_ratio", by_state(|fit| &fit.torsion_ratio_by_state))?;
     found.set_item("covariance", fits.iter().map(|fit| fit.covariance).collect::<Vec<_>>())?;
     let profile = |fit: &Fit| -> Vec<[[f64; 2]; 2]> {
         fit.profile.iter().map(|knot| knot.map(|e| [e.value, e.deviation])).collect()

@@ -64,6 +64,13 @@ pub(crate) enum Quantity {
     Torsion,
 }
 
+impl Quantity {
+    /// Its name on the command line.
+    pub(crate) fn name(self) -> &'static str {
+        QUANTITIES.iter().find(|(_, quantity)| *quantity == self).map_or("", |(name, _)| *name)
+    }
+}
+
 const QUANTITIES: [(&str, Quantity); 5] = [
     ("stiffness-over-weight", Quantity::StiffnessOverWeight),
     ("torsion-ratio", Quantity::TorsionRatio),

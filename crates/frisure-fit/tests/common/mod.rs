@@ -28,6 +28,8 @@ pub(crate) struct Truth {
     /// EI/(ρSg) (m³) and GJ/EI.
     pub(crate) stiffness: f64,
     pub(crate) ratio: f64,
+    /// Bending stiffness across the natural curl over that along it, its root.
+    pub(crate) axis_ratio: f64,
 }
 
 impl Truth {
@@ -40,7 +42,16 @@ impl Truth {
             pitch: hand * random.decades(0.006, 0.05),
             stiffness: random.decades(3e-5, 3e-4),
             ratio: (0.46_f64.ln() + 0.3 * normal(random)).exp(),
+            axis_ratio: 1.0,
         }
+    }
+
+    /// The same of any section that hair has, with the torsional stiffness of an ellipse.
+    pub(crate) fn elliptical(random: &mut SplitMix64) -> Self {
+        let round = Self::random(random);
+        let axis_ratio = (1.25_f64.ln() + 0.2 * normal(random)).exp();
+        // 2 r²/(1 + r²) with r = 1.25.
+        Self { ratio: round.ratio * 1.2195, axis_ratio, ..round }
     }
 
     pub(crate) fn curvature(&self) -> f64 {
@@ -55,7 +66,8 @@ impl Truth {
 
     /// The rod, in gravity along −z times `gravity`.
     pub(crate) fn rod(&self, tangent: DVec3, d1: DVec3, gravity: f64) -> Rod {
-        let section = Section::circular(35e-6).unwrap();
+        let root = self.axis_ratio.sqrt();
+        let section = Section::from_semi_axes(35e-6 * root, 35e-6 / root).unwrap();
         let weight = 1300.0 * section.area() * 9.81;
         let young = self.stiffness * weight / section.i1();
         let shear = self.ratio * self.stiffness * weight / section.j(TorsionConstant::SaintVenant);

@@ -53,7 +53,8 @@ class Fits:
     - `curvature`, `torsion` (F,), rad/m: natural curvature, the mean if it varies, and natural torsion.
     - `stiffness_over_weight` (F, S): EI/(ρSg) (m³) with the smaller bending stiffness and g = 9.81 m/s²; NaN for a state that a fibre
       was not seen in.
-    - `torsion_ratio` (F,): GJ/EI.
+    - `torsion_ratio` (F,): GJ/EI in the first state; `torsion_ratio_by_state` (F, S) has it in each.
+    - `axis_ratio` (F,): longer over shorter axis of the section: that of `known`, or what the line tells of it, which is seldom much.
     - `length` (F, S), m.
     - `profile` (F, K, 2, 2), rad/m: natural curvature and torsion at K knots with their deviations; the last axis is value, deviation.
       None with one knot.
@@ -81,6 +82,10 @@ class Fits:
     stiffness_over_weight_sd: Float64
     torsion_ratio: Float64
     torsion_ratio_sd: Float64
+    torsion_ratio_by_state: Float64
+    torsion_ratio_by_state_sd: Float64
+    axis_ratio: Float64
+    axis_ratio_sd: Float64
     length: Float64
     length_sd: Float64
     profile: Float64 | None
@@ -142,11 +147,12 @@ def fit(
     - `gravity` (m/s², in the axes of the points): (3,) or (H, 3). Zero: without weight, in water or lying flat.
     - `fibre`: which fibre each line shows, (H,) integers; by default each another. Several poses tell more than one. Rows of the result, and of what is
       given for each fibre, are in ascending order of these numbers.
-    - `state`: state of wetness of each line, 0, 1, …; each has a stiffness over weight of its own, and the natural strain is the same.
+    - `state`: state of wetness of each line, 0, 1, …; each has stiffnesses of its own, and natural strain and section are the same.
     - `length` (m): of each fibre from the clamp to the tip, () or (F,). By default its last arc length.
-    - `known`: numbers that are known, by name: `stiffness_over_weight` (m³, of state 0), `torsion_ratio`, `curvature`, `torsion` (rad/m),
+    - `known`: numbers that are known, by name: `stiffness_over_weight` (m³) and `torsion_ratio`, both of state 0, `curvature`, `torsion` (rad/m),
       `axis_ratio`; a number, (F,), or a pair of those: value and standard deviation. Without it EI/(ρSg) is taken to be 1e-4 m³ within a
-      factor of 4.5 and GJ/EI 0.46 within 30 % (standard deviations of the logarithms), and the section to be a circle.
+      factor of 4.5, GJ/EI that of a round fibre, 0.46, within 30 %, with a factor 2 r²/(1 + r²) for the axis ratio r, and r 1.25 within 20 % (standard
+      deviations of the logarithms); GJ/EI of further states within a factor of 2.
     - `knots`: the natural strain is linear between so many, for curls that vary along the fibre.
 
     >>> import numpy as np
@@ -176,8 +182,6 @@ def fit(
         if name not in given:
             raise ArgumentError(f"known has {name!r}; it can have {', '.join(KNOWN)}")
         given[name] = _known(f"known[{name!r}]", value, len(names))
-    if given["axis_ratio"] is not None and given["axis_ratio"][:, 1].any():
-        raise ArgumentError("known['axis_ratio'] has a deviation; it is not fitted, so give the number alone")
     numbers = np.ascontiguousarray(order.reshape(-1), dtype=np.int64)
     states = _states(state, numbers, len(names))
     if arcs is not None:
@@ -200,10 +204,11 @@ def fit(
 
 
 def _fits(found: dict[str, Any], count: int, knots: int) -> Fits:
-    numbers = np.asarray(found["numbers"], dtype=np.float64).reshape(count, 14)
+    numbers = np.asarray(found["numbers"], dtype=np.float64).reshape(count, 16)
     states = len(found["length"][0]) if count else 1
     stiffness = np.asarray(found["stiffness"], dtype=np.float64).reshape(count, states, 2)
     length = np.asarray(found["length"], dtype=np.float64).reshape(count, states, 2)
+    ratio = np.asarray(found["torsion_ratio"], dtype=np.float64).reshape(count, states, 2)
     profile = np.asarray(found["profile"], dtype=np.float64).reshape(count, knots, 2, 2) if knots > 1 else None
     return Fits(
         curvature=numbers[:, 0],
@@ -216,10 +221,14 @@ def _fits(found: dict[str, Any], count: int, knots: int) -> Fits:
         curl_pitch_sd=numbers[:, 7],
         torsion_ratio=numbers[:, 8],
         torsion_ratio_sd=numbers[:, 9],
-        noise=numbers[:, 10],
-        reduced_square=numbers[:, 11],
-        fitted=numbers[:, 12] == 0,
-        iterations=numbers[:, 13].astype(np.int64),
+        torsion_ratio_by_state=ratio[:, :, 0],
+        torsion_ratio_by_state_sd=ratio[:, :, 1],
+        axis_ratio=numbers[:, 10],
+        axis_ratio_sd=numbers[:, 11],
+        noise=numbers[:, 12],
+        reduced_square=numbers[:, 13],
+        fitted=numbers[:, 14] == 0,
+        iterations=numbers[:, 15].astype(np.int64),
         stiffness_over_weight=stiffness[:, :, 0],
         stiffness_over_weight_sd=stiffness[:, :, 1],
         length=length[:, :, 0],
