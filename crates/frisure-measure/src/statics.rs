@@ -31,6 +31,10 @@ const LEAST_DEVIATION: f64 = 0.01;
 /// Most steps of Gauss and Newton.
 const STEPS: usize = 8;
 
+/// Largest difference of the mean logarithm of wavelengths or of amplitudes from what is seen, of a fibre that hangs as seen. Chosen: locks whose numbers
+/// are right to a tenth are within a twentieth.
+const MOST_OFF: f64 = 0.15;
+
 /// Change of the logarithms at which the iteration ends: a thousandth.
 const SMALL: f64 = 1e-3;
 
@@ -199,7 +203,7 @@ impl Hanging<'_> {
     }
 
     /// The natural radius and pitch with which the lock hangs as seen; `deviations` are those of what was seen. None where the iteration does not
-    /// converge.
+    /// converge, or no fibre hangs so.
     pub(crate) fn solve(
         &self,
         seen: &[f64; OBSERVED],
@@ -264,7 +268,12 @@ impl Hanging<'_> {
                 break;
             }
         }
-        Ok(natural)
+        // Not every wave is that of a fibre which hangs: the nearest one may be far from what is seen.
+        let rest = off(&found);
+        let count = PLACES.len();
+        let mean = |part: &[f64]| part.iter().sum::<f64>().abs() / count as f64;
+        let fits = mean(&rest[..count]) < MOST_OFF && mean(&rest[count..]) < MOST_OFF;
+        Ok(natural.filter(|_| fits))
     }
 
     /// Differences of what is seen by both unknowns.
