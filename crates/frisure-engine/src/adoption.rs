@@ -23,6 +23,9 @@ pub struct AdoptionReport {
     /// Those that are inside the head in the groom.
     #[serde(default)]
     pub inside: usize,
+    /// Those that are rooted more than a centimetre from the skin.
+    #[serde(default)]
+    pub off_skin: usize,
     /// Strands of the groom without length, which are left out.
     #[serde(default)]
     pub left_out: usize,
@@ -46,7 +49,7 @@ impl AdoptionReport {
     /// Summarises an adoption.
     #[must_use]
     pub fn of(adoption: &Adoption) -> Self {
-        let Adoption { distances, stiffness_needed, left_out, inside, times } = adoption;
+        let Adoption { distances, stiffness_needed, left_out, inside, off_skin, times } = adoption;
         let mut order: Vec<usize> = (0..distances.len()).collect();
         order.sort_by(|&a, &b| distances[b].total_cmp(&distances[a]).then(a.cmp(&b)));
         let distance = |rank: usize| order.get(rank).map_or(0.0, |&i| distances[i]);
@@ -59,6 +62,7 @@ impl AdoptionReport {
             unstable: stiffness_needed.iter().filter(|f| **f > 1.0).count(),
             stiffness_needed: stiffness_needed.iter().copied().fold(1.0, f64::max),
             inside: *inside,
+            off_skin: *off_skin,
             left_out: *left_out,
             times: *times,
             moved: order[..moved.min(LISTED)].to_vec(),
@@ -87,6 +91,9 @@ impl fmt::Display for AdoptionReport {
         if self.inside > 0 {
             write!(f, "; {} inside the head in the groom and moved out", are(self.inside))?;
         }
+        if self.off_skin > 0 {
+            write!(f, "; {} rooted more than 1 cm from the skin", are(self.off_skin))?;
+        }
         if self.left_out > 0 {
             write!(f, "; {} without length and left out", are(self.left_out))?;
         }
@@ -113,14 +120,15 @@ mod tests {
     fn strands_that_moved_are_counted_and_listed() {
         let distances = vec![1e-4, 0.02, 2e-4, 3e-3, 0.0];
         let stiffness_needed = vec![1.0, 6.5, 1.0, 1.0, 1.0];
-        let adoption = Adoption { distances, stiffness_needed, left_out: 2, inside: 1, times: 3 };
+        let (left_out, inside, off_skin, times) = (2, 1, 4, 3);
+        let adoption = Adoption { distances, stiffness_needed, left_out, inside, off_skin, times };
         let report = AdoptionReport::of(&adoption);
         assert_eq!(report.moved, [1, 3]);
         assert_eq!(
             report.to_string(),
             "3 of 5 guides stay within 1 mm (median 0.20 mm, farthest 20.0 mm); 1 strand is unstable with \
              this fibre; the worst needs 6.5 times the bending stiffness; 1 strand is inside the head in the \
-             groom and moved out; 2 strands are without length and left out; of 3 times that the groom has the first \
+             groom and moved out; 4 strands are rooted more than 1 cm from the skin; 2 strands are without length and left out; of 3 times that the groom has the first \
              is taken"
         );
     }

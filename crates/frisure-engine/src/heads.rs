@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use frisure::files::{Files, Stamp};
 use frisure::formats::head::{self, HeadMesh};
-use frisure::hairstyle::head::{Head, HeadError, ScalpSource, Stance};
+use frisure::hairstyle::head::{Head, HeadError, MeshFaults, ScalpSource, Stance};
 use frisure::scene::{HeadSource, Scene, SceneError};
 use glam::{DMat3, DQuat, DVec3, EulerRot};
 
@@ -97,7 +97,8 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
         Stance::Leans(upright) if file.turn.is_none() => Some(leans(&upright)),
         Stance::Leans(_) | Stance::Upright => None,
     };
-    let notes: Vec<String> = [note, lies, holes(&head)].into_iter().flatten().collect();
+    let notes = [note, lies, holes(&head)].into_iter().flatten();
+    let notes: Vec<String> = notes.chain(faults(&head.mesh_faults())).collect();
     let note = (!notes.is_empty()).then(|| notes.join("\n"));
     Ok(LoadedHead { head: Arc::new(head), note })
 }
@@ -139,6 +140,41 @@ fn holes(head: &Head) -> Option<String> {
     ))
 }
 
+/// What a person is told of the faults of a mesh.
+fn faults(faults: &MeshFaults) -> Vec<String> {
+    let MeshFaults { turned, mixed, doubled, apart, scalp } = *faults;
+    let mut notes = Vec::new();
+    if turned {
+        notes.push("the faces of the head look inwards in its file: they were turned".to_owned());
+    }
+    if let Some(share) = mixed {
+        notes.push(format!(
+            "warning: at {:.0} % of the edges of the head one face looks outwards and its neighbour inwards; hair may grow inwards there. Let the \
+             program that made the mesh turn all of them outwards (Blender: Mesh > Normals > Recalculate Outside)",
+            (100.0 * share).ceil()
+        ));
+    }
+    if let Some(count) = doubled {
+        notes.push(format!(
+            "warning: {count} faces of the head lie on others that have the same corners, and hair grows on each of them: take one of the two away"
+        ));
+    }
+    if let Some((count, middle)) = apart {
+        let [x, y, z] = (100.0 * middle).to_array();
+        notes.push(format!(
+            "warning: the mesh of the head has {count} parts that lie apart from each other, the smallest about ({x:.1}, {y:.1}, {z:.1}) cm. All of \
+             them are taken for one head, and its scalp may be sought in the wrong place: leave the head alone in the file"
+        ));
+    }
+    if let Some(times) = scalp.filter(|_| doubled.is_none()) {
+        notes.push(format!(
+            "warning: the scalp that was guessed is {times:.1} times as large as that of a head of this width. Leave only the head in the file, or say \
+             where hair grows: `scalp_group`, `scalp_mask` or `scalp_weights` in `[head]`"
+        ));
+    }
+    notes
+}
+
 /// The head that the groom of a scene was made on.
 ///
 /// # Errors
@@ -161,8 +197,8 @@ pub(crate) fn groom_head(
 }
 
 fn built_in(scene: &Scene, source: &HeadSource, key: &str) -> Result<Arc<Head>, SceneError> {
-    let HeadSource::Person(name) = source else { return Ok(MANNEQUIN.clone()) };
-    let head = Head::named(name).map(Arc::new);
+    let HeadSource::Person { name, face } = source else { return Ok(MANNEQUIN.clone()) };
+    let head = Head::with_face(name, *face).map(Arc::new);
     head.ok_or_else(|| scene.error_at(key, "there is no head of this name", ""))
 }
 

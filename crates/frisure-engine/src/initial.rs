@@ -82,10 +82,8 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
     let roots: Vec<DVec3> = guides.iter().map(|strand| strand.points[0].as_dvec3()).collect();
     // Median distance (m) of turned and scaled roots from the skin.
     let median = |turn: fn(DVec3) -> DVec3, size: f64| {
-        let distance = |root: &DVec3| head.signed_distance().value(turn(*root * size)).abs();
-        let mut distances: Vec<f64> = roots.iter().map(distance).collect();
-        let half = distances.len() / 2;
-        *distances.select_nth_unstable_by(half, f64::total_cmp).1
+        let turned: Vec<DVec3> = roots.iter().map(|root| turn(*root * size)).collect();
+        median_height(head, &turned)
     };
     let distance = median(TURNS[0].1, 1.0);
     // An axis that the scene names already is how the groom was read, and naming it again changes nothing.
@@ -110,6 +108,14 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
         Some((up, _)) => format!(", but with {up} up they fit"),
         None => turns().find_map(scaled).unwrap_or_default(),
     };
+    if suggestion.is_empty() && median_height(head, &last_points(guides)) < NEARER * distance {
+        let problem = format!(
+            "half of the groom's strands are rooted more than {:.1} cm from the skin of the head, and their last points lie nearer to it",
+            1e2 * distance
+        );
+        let hint = "a strand begins at its root: reverse the strands in the program that made them";
+        return Err(scene.error_at("groom.file", problem, hint));
+    }
     let possible = if distance > MOST_DISTANCE { "; 1 cm is possible" } else { "" };
     let problem = format!(
         "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{suggestion}",
@@ -126,6 +132,18 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
     }
     let hint = format!("{GROOM_FRAME}, or name the head that the groom was made on");
     Err(scene.error_at("groom.file", problem, hint))
+}
+
+fn last_points(strands: &Strands) -> Vec<DVec3> {
+    strands.iter().map(|strand| strand.points[strand.points.len() - 1].as_dvec3()).collect()
+}
+
+/// The median distance (m) of points from the skin.
+fn median_height(head: &Head, points: &[DVec3]) -> f64 {
+    let mut heights: Vec<f64> =
+        points.iter().map(|p| head.signed_distance().value(*p).abs()).collect();
+    let half = heights.len() / 2;
+    *heights.select_nth_unstable_by(half, f64::total_cmp).1
 }
 
 /// What a guess takes the groom for, and the lines that place it.

@@ -27,7 +27,7 @@ pub fn input_files(scene: &Scene) -> Vec<&Path> {
 pub(crate) fn head_files(head: &HeadSource) -> impl Iterator<Item = &Path> {
     let file = match head {
         HeadSource::Mesh(file) => Some(file),
-        HeadSource::Mannequin | HeadSource::Person(_) => None,
+        HeadSource::Mannequin | HeadSource::Person { .. } => None,
     };
     let scalp = file.and_then(|file| match &file.scalp {
         ScalpSource::Mask(path) | ScalpSource::Weights(path) => Some(path.as_path()),
@@ -52,7 +52,7 @@ pub(crate) fn head_mesh(
 ) -> Result<HeadMesh, SceneError> {
     head::read(file, files).map_err(|e| {
         let hint = match e {
-            HeadFileError::Size { .. } => "set `unit` and `up` of `[head]`",
+            HeadFileError::Size { .. } => "set `unit` or `scale`, and `up`, of `[head]`",
             _ => "",
         };
         scene.error_at(key(&e, file), message(&e), hint)

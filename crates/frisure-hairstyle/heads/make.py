@@ -8,7 +8,9 @@ Needs numpy and scipy. MakeHuman's frame: decimetres, x to the head's left, y up
 smallest and largest corner (6 f32, m), the radius of the eyes (f32), then places (f32, m): the centre of the left eye, 10
 along its upper and 10 along its lower lid, 6 along its brow; then a table (see `columns`) of three u16 for each vertex, of all heads but
 the first less those of the first. `topology.bin` has the numbers of vertices and faces (u16), a table of four u16 for each face, and u8
-for each vertex: lips of all, flush of all, garment of all.
+for each vertex: lips of all, flush of all, garment of all. `features.bin` has what faces differ by (see `FEATURES`): the number of features
+(u16), then for each its step (f32, m), the number of its rows (u16), a table of u16 which vertices it moves, those after the last vertex
+being the places of a head in their order, and a table of three i16 how far, in steps, at one standard deviation.
 """
 import gzip
 import json
@@ -30,6 +32,46 @@ HEADS = {
     "asian-man": ({"asian": 1}, "male", {"young": 1}),
     "older-man": ({"caucasian": 0.75, "african": 0.25}, "male", {"young": 0.35, "old": 0.65}),
 }
+# What faces differ by: the standard deviation in units of targets, and their shares. The deviations are chosen by eye: with two of them a
+# face is still one that people have.
+FEATURES = {
+    "width of the nose": (0.3, {"nose/nose-scale-horiz-incr": 1}),
+    "length of the nose": (0.4, {"nose/nose-scale-vert-incr": 1}),
+    "depth of the nose": (0.2, {"nose/nose-scale-depth-incr": 1}),
+    "bridge of the nose": (0.25, {"nose/nose-hump-incr": 1, "nose/nose-greek-incr": 0.4}),
+    "tip of the nose": (0.26, {"nose/nose-point-up": 1}),
+    "nostrils": (0.16, {"nose/nose-width3-incr": 1, "nose/nose-flaring-incr": 0.5}),
+    "width of the mouth": (0.3, {"mouth/mouth-scale-horiz-incr": 1}),
+    "fullness of the lips": (
+        0.14,
+        {
+            "mouth/mouth-lowerlip-volume-incr": 1,
+            "mouth/mouth-upperlip-volume-incr": 1,
+            "mouth/mouth-lowerlip-height-incr": 0.5,
+            "mouth/mouth-upperlip-height-incr": 0.5,
+        },
+    ),
+    "height of the mouth": (0.15, {"mouth/mouth-trans-up": 1}),
+    "width of the chin": (0.14, {"chin/chin-width-incr": 1, "chin/chin-bones-incr": 1}),
+    "height of the chin": (0.12, {"chin/chin-height-incr": 1}),
+    "prominence of the chin": (0.15, {"chin/chin-prominent-incr": 1}),
+    "cheekbones": (0.18, {"cheek/?-cheek-bones-incr": 1}),
+    "cheeks": (0.14, {"cheek/?-cheek-volume-incr": 1, "cheek/?-cheek-inner-incr": 0.5}),
+    "distance of the eyes": (0.26, {"eyes/?-eye-trans-out": 1}),
+    "slant of the eyes": (0.3, {"eyes/?-eye-corner2-up": 1}),
+    "folds of the lids": (0.3, {"eyes/?-eye-eyefold-down": 1}),
+    "height of the brows": (0.15, {"eyebrows/eyebrows-trans-down": 1}),
+    "angle of the brows": (0.15, {"eyebrows/eyebrows-angle-up": 1}),
+    "depth of the eyes": (0.09, {"eyebrows/eyebrows-trans-forward": 1}),
+    "fat": (0.12, {"head/head-fat-incr": 1}),
+    "bend of the nose": (0.2, {"asym/asym-nose-1-l": 1}),
+    "bend of the mouth": (0.2, {"asym/asym-mouth-1-l": 1}),
+    "bend of the jaw": (0.12, {"asym/asym-jaw-1-l": 1}),
+}
+# From where on features move the face, the front edge of the ears, and the width over which they begin (dm, to the front).
+EDGE, EDGE_WIDTH = 0.75, 0.35
+# A step of the table of a feature (m).
+STEP = 2e-5
 # Vertices of the lashes' strips along the edges of the left lids, from the nose outwards.
 UPPER = [14763, 14762, 14761, 14760, 14743, 14742, 14744, 14745, 14746, 14747]
 LOWER = [14765, 14759, 14758, 14757, 14756, 14755, 14754, 14753, 14752, 14751]
@@ -109,15 +151,45 @@ def with_arms_down(places):
     return places
 
 
-def front(places, triangles, x, y):
-    """Foremost z of the surface at (x, y)."""
+def foremost(places, triangles, x, y):
+    """Foremost place of the surface at (x, y): z, and the vertices of its triangle with their shares."""
     a, b, c = (places[triangles[:, k]] for k in range(3))
     with np.errstate(all="ignore"):
         det = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
         u = ((x - a[:, 0]) * (c - a)[:, 1] - (y - a[:, 1]) * (c - a)[:, 0]) / det
         v = ((b - a)[:, 0] * (y - a[:, 1]) - (b - a)[:, 1] * (x - a[:, 0])) / det
         inside = (u >= 0) & (v >= 0) & (u + v <= 1)
-        return (a[:, 2] * (1 - u - v) + b[:, 2] * u + c[:, 2] * v)[inside].max()
+        z = np.where(inside, a[:, 2] * (1 - u - v) + b[:, 2] * u + c[:, 2] * v, -np.inf)
+        first = z.argmax()
+        return z[first], triangles[first], np.array([1 - u - v, u, v])[:, first]
+
+
+def feature(targets):
+    """How far a feature moves each vertex (dm)."""
+    way = np.zeros_like(BASE)
+    for name, share in targets.items():
+        for side in "lr" if "?" in name else [""]:
+            index, moved = target(name.replace("?", side))
+            way[index] += share * moved
+    # Hair grows, and lies, behind the edge of the face, which stays.
+    return way * np.clip((BASE[:, 2] - EDGE) / EDGE_WIDTH, 0, 1)[:, None]
+
+
+def features(used, triangles, whole):
+    """The file of the features, whose places are those of the first head."""
+    ball = members("helper-l-eye")
+    eye = 0.5 * (whole[ball].min(0) + whole[ball].max(0))
+    at = [foremost(whole[used], triangles, eye[0] + dx, eye[1] + dy)[1:] for dx, dy in BROW]
+    data = struct.pack("<H", len(FEATURES))
+    for deviation, targets in FEATURES.values():
+        way = feature(targets)
+        brow = [shares @ way[used][corners] for corners, shares in at]
+        rows = np.concatenate([way[used], [way[ball].mean(0)], way[UPPER], way[LOWER], brow])
+        x, y, z = (0.1 * deviation / STEP * rows).T
+        steps = np.round(np.stack([x, -z, y], 1)).astype(int)
+        index = np.flatnonzero(abs(steps).max(1) > 1)
+        data += struct.pack("<fH", STEP, len(index)) + columns(index[:, None]) + columns(steps[index])
+    return data
 
 
 def columns(table):
@@ -198,6 +270,9 @@ def main():
     open(os.path.join(TARGET, "topology.bin"), "wb").write(data)
 
     triangles = np.array([[f[0], f[i], f[i + 1]] for f in faces for i in (1, 2)])
+    data = features(used, triangles, reference)
+    open(os.path.join(TARGET, "features.bin"), "wb").write(data)
+
     first = None
     for name in HEADS:
         whole = with_arms_down(person(name))
@@ -216,7 +291,7 @@ def main():
         radius = 0.5 * (ball[:, 0].max() - ball[:, 0].min())
         eye[2] = ball[:, 2].max() - radius
         at = [(eye[0] + dx, eye[1] + dy) for dx, dy in BROW]
-        brow = [(x, y, front(places, triangles, x, y)) for x, y in at]
+        brow = [(x, y, foremost(places, triangles, x, y)[0]) for x, y in at]
         # Metres, z up, the face towards -y, the vertex 11 cm above the origin.
         top = places[:, 1].max()
         skull = places[abs(places[:, 1] - (top - 1.0)) < 0.1][:, 2]

@@ -41,6 +41,8 @@ pub struct Adoption {
     pub left_out: usize,
     /// How many guides the groom has in the head, deeper than 5 mm; they come out of it.
     pub inside: usize,
+    /// How many guides are rooted more than 1 cm from the skin; they stay there.
+    pub off_skin: usize,
     /// At how many times the groom is known, of which the first was adopted; 0 or 1 of a groom that does not move.
     pub times: usize,
 }
@@ -98,9 +100,19 @@ pub fn adopt(
     let distances = parallel::map(lines.len(), |i| apart(&lines[i], &rest.guides[i]));
     let stiffness_needed = held.iter().map(|held| held.fit.stiffness_needed).collect();
     let inside = lines.iter().filter(|line| is_inside(&spec, head, line)).count();
+    let off_skin = lines.iter().filter(|line| is_off(head, line)).count();
     let styling = Styling::none(&guides);
     let hairstyle = Hairstyle { spec, placement, layout, guides, rest, styling };
-    Ok((hairstyle, Adoption { distances, stiffness_needed, left_out, inside, times: 0 }))
+    let adoption = Adoption { distances, stiffness_needed, left_out, inside, off_skin, times: 0 };
+    Ok((hairstyle, adoption))
+}
+
+/// Distance (m) of a root from the skin that is told. Chosen: heads in files differ from those that grooms were made on by less.
+const OFF_SKIN: f64 = 0.01;
+
+/// Whether the root of a line (m) is off the skin.
+fn is_off(head: &Head, line: &[DVec3]) -> bool {
+    head.signed_distance().value(line[0]) > OFF_SKIN
 }
 
 /// Least length (m) of a strand that is hair. Chosen: far below any hair, far above rounding.

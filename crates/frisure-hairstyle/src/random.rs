@@ -24,6 +24,7 @@ pub(crate) enum Purpose {
     CurlAlong,
     PartingSide,
     Scissors,
+    Feature,
 }
 
 /// A stream of random numbers.

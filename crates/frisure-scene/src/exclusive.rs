@@ -34,7 +34,7 @@ pub(crate) const GROUPS: [Group; 19] = [
     &[&["pose.pitch", "pose.roll"], &["pose.down"]],
     &[&["head.scalp_group"], &["head.scalp_colour"], &["head.scalp_mask"], &["head.scalp_weights"]],
     &[&["head.unit"], &["head.scale"]],
-    &[&["head.model"], &["head.mesh"]],
+    &[&["head.model", "head.face"], &["head.mesh"]],
     &[&["groom.head_model"], &["groom.head_mesh"]],
     &[&["region[].length"], &["region[].down_to"]],
     &[&["equilibrium.elements"], &["equilibrium.accuracy"]],

@@ -187,6 +187,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "head" => table();
         /// A built-in head. Default "mannequin".
         "head.model" => value::<OneOf<ModelWord>>();
+        /// Seed of the face of a built-in person: nose, mouth, chin, cheeks, eyes and brows differ from those of the model by chance, and
+        /// another number gives another face. Scalp and ears stay. Default 0, the face of the model.
+        "head.face" => number::<Count>().range(0.0, 1e6, "between 0 and 1000000");
         /// Path of a mesh (OBJ, USD, glTF or PLY), relative to the scene. Left out, a built-in head.
         "head.mesh" => value::<Text>();
         /// Unit of the mesh. Default: the unit that the file or its format states. OBJ and PLY state none: "m", or a guess from

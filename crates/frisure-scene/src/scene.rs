@@ -79,8 +79,13 @@ pub struct Section {
 pub enum HeadSource {
     /// The built-in mannequin.
     Mannequin,
-    /// A built-in head of a person, by name.
-    Person(&'static str),
+    /// A built-in head of a person.
+    Person {
+        /// Its name.
+        name: &'static str,
+        /// The seed of its face; 0 for that of the model.
+        face: u32,
+    },
     /// A mesh.
     Mesh(HeadFile),
 }
@@ -90,7 +95,7 @@ impl HeadSource {
     #[must_use]
     pub fn built_in(name: &str) -> Option<Self> {
         let name = Head::names().find(|known| *known == name)?;
-        Some(if name == MANNEQUIN { Self::Mannequin } else { Self::Person(name) })
+        Some(if name == MANNEQUIN { Self::Mannequin } else { Self::Person { name, face: 0 } })
     }
 }
 

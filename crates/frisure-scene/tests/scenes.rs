@@ -32,11 +32,17 @@ fn an_empty_file_is_a_scene() {
 fn built_in_heads_have_names_and_a_wrong_one_gets_the_list() {
     let of = |model: &str| good(&format!("head.model = \"{model}\"")).head;
     assert_eq!(of("mannequin"), HeadSource::Mannequin);
-    assert_eq!(of("older-man"), HeadSource::Person("older-man"));
+    assert_eq!(of("older-man"), HeadSource::Person { name: "older-man", face: 0 });
     let wrong = diagnostic("head.model = \"old-man\"").to_string();
     for name in ["mannequin", "african-woman", "asian-man", "european-woman", "older-man"] {
         assert!(wrong.contains(name), "{wrong}");
     }
+    let face = good("[head]\nmodel = \"older-man\"\nface = 7").head;
+    assert_eq!(face, HeadSource::Person { name: "older-man", face: 7 });
+    assert_eq!(good("head.face = 0").head, HeadSource::Mannequin);
+    let wrong = diagnostic("[head]\nface = 7").to_string();
+    assert!(wrong.contains("one face") && wrong.contains("european-woman"), "{wrong}");
+    diagnostic("[head]\nmodel = \"older-man\"\nface = 1000001");
     // A mesh and a built-in head are two heads.
     diagnostic("[head]\nmodel = \"asian-man\"\nmesh = \"head.obj\"");
     diagnostic("[head]\nmodel = \"asian-man\"\nscale = 2");
@@ -367,6 +373,7 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                 let count = key["type"] == "integer";
                 let x = if count { format!("{x:.0}") } else { format!("{x:?}") };
                 let rest = match path.as_str() {
+                    "head.face" => "head.model = \"asian-man\"\n",
                     "head.scale" => "head.mesh = \"a\"\n",
                     "groom.guides" | "groom.scale" => "groom.file = \"a.usd\"\n",
                     // As many as fit on a head depends on how many wisps there are.

@@ -170,6 +170,52 @@ impl Surface {
         self.accessories = Some(Arc::new(faces));
     }
 
+    /// The same mesh without the vertices that no face uses, and the former index of each that is left.
+    #[must_use]
+    pub fn without_strays(mut self) -> (Self, Vec<u32>) {
+        let mut used = vec![false; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+        let kept: Vec<u32> = (0..used.len() as u32).filter(|&v| used[v as usize]).collect();
+        if kept.len() < used.len() {
+            let mut now = vec![0; used.len()];
+            kept.iter().zip(0..).for_each(|(&v, new)| now[v as usize] = new);
+            self.positions = kept.iter().map(|&v| self.positions[v as usize]).collect();
+            self.triangles.iter_mut().flatten().for_each(|v| *v = now[*v as usize]);
+            if let Some(features) = self.features.as_mut().filter(|f| !f.tints.is_empty()) {
+                let features = Arc::make_mut(features);
+                features.tints = kept.iter().map(|&v| features.tints[v as usize]).collect();
+            }
+        }
+        (self, kept)
+    }
+
+    /// The same mesh with every face turned to the other side.
+    #[must_use]
+    pub fn turned_over(mut self) -> Self {
+        self.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        self.texture.iter_mut().for_each(|corners| corners.swap(1, 2));
+        self
+    }
+
+    /// The volume that the faces enclose (m³), seen from the mean of their middles; negative where they look inwards. Of an open mesh it is
+    /// that up to this point.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        let faces = 0..self.triangles.len();
+        let (sum, area) = faces.clone().fold((DVec3::ZERO, 0.0), |(sum, area), face| {
+            let own = self.doubled_area_vector(face).length();
+            let [a, b, c] = self.corners(face);
+            (sum + own * (a + b + c) / 3.0, area + own)
+        });
+        let middle = sum / area;
+        // A tetrahedron over each face.
+        let over = |face: usize| {
+            let [a, b, c] = self.corners(face).map(|p| p - middle);
+            a.dot(b.cross(c)) / 6.0
+        };
+        faces.map(over).sum()
+    }
+
     /// Adds the vertices and faces of another mesh, without its texture and features.
     pub(crate) fn append(&mut self, other: &Self) {
         let first = self.positions.len() as u32;
@@ -261,6 +307,32 @@ mod tests {
             Surface::new(nan, vec![[0, 1, 2]]),
             Err(SurfaceError::NotFinite { vertex: 2, .. })
         ));
+    }
+
+    #[test]
+    fn strays_go_and_meshes_turn_over() {
+        // A tetrahedron whose faces look outwards, and two vertices of no face.
+        let p = [DVec3::NAN, DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE];
+        let p = p.map(|p| if p.is_nan() { DVec3::NEG_ONE } else { p });
+        let faces = vec![[1, 3, 2], [1, 2, 4], [1, 4, 3], [2, 3, 4]];
+        let texture = (0..4).map(|k| [[0.0, 0.0], [1.0, k as f32], [0.0, 1.0]]).collect();
+        let tints = (0..6).map(|k| Tint { lips: k as f32, ..Tint::default() }).collect();
+        let surface = Surface::new(p.to_vec(), faces).unwrap().with_texture(texture).unwrap();
+        let surface = surface.with_features(Features { tints, ..Features::default() }).unwrap();
+        let corners: Vec<_> = (0..4).map(|face| surface.corners(face)).collect();
+        assert!((surface.volume() - 1.0 / 6.0).abs() < 1e-15);
+        let (clean, kept) = surface.clone().without_strays();
+        assert_eq!(kept, [1, 2, 3, 4]);
+        assert_eq!(clean.positions(), &p[1..5]);
+        assert_eq!((0..4).map(|face| clean.corners(face)).collect::<Vec<_>>(), corners);
+        assert_eq!(clean.texture(), surface.texture());
+        assert_eq!(clean.features().unwrap().tints[0].lips, 1.0);
+        let over = clean.clone().turned_over();
+        assert!((over.volume() + 1.0 / 6.0).abs() < 1e-15);
+        assert_eq!(over.texture()[2], [[0.0, 0.0], [0.0, 1.0], [1.0, 2.0]]);
+        assert_eq!(over.turned_over(), clean);
+        let whole = clean.clone().without_strays();
+        assert_eq!(whole, (clean, vec![0, 1, 2, 3]));
     }
 
     #[test]

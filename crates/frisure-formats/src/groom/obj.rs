@@ -126,6 +126,7 @@ fn push_digits(line: &mut Vec<u8>, mut value: u64, width: usize) {
 
 /// Bytes of a file into hairs (m), or what is wrong with them. Faces and all else are passed over.
 fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut points: Vec<[f32; 3]> = Vec::new();
     let mut lines = Lines::default();
     let mut line: Vec<u32> = Vec::new();

@@ -139,6 +139,12 @@ fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
     };
     let format = FORMATS.iter().find(|format| (format.begins)(&bytes)).copied();
     let format = format.unwrap_or(&obj::FORMAT);
+    let named =
+        |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+    if format.is_text && !format.extensions.iter().any(|e| named(e)) && !is_obj(&bytes) {
+        let (expected, problem) = (ANY, "it begins as none of them does".into());
+        return Err(HeadFileError::Format { path: path.into(), expected, problem });
+    }
     // The error says which byte is not text.
     let bytes = if format.is_text { to_text(bytes, path)?.into_bytes() } else { bytes };
     (format.read)(&bytes, &beside).map_err(|Problem { line, what }| match line {
@@ -146,6 +152,16 @@ fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
         None => {
             HeadFileError::Format { path: path.into(), expected: format.expected, problem: what }
         }
+    })
+}
+
+/// What a file of a head is expected to be.
+const ANY: &str = "a mesh that is read (OBJ, USD, glTF or PLY)";
+
+/// Whether bytes are text with a vertex of OBJ, whatever the name of the file.
+fn is_obj(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(|text| {
+        text.split(['\n', '\r']).any(|line| line.split_whitespace().next() == Some("v"))
     })
 }
 

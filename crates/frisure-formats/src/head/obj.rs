@@ -3,6 +3,8 @@
 //! Read here and not by a library, for two reasons: vertices that groups share stay
 //! one vertex (a split seam would be a hole in the signed distance), and an error names its line.
 
+use std::borrow::Cow;
+
 use super::format::{MeshFormat, Problem};
 use super::mesh::{MAX_CORNERS, Mesh};
 use crate::accessory_names::OBJECT;
@@ -16,7 +18,13 @@ pub(super) static FORMAT: MeshFormat = MeshFormat {
     is_text: true,
     read: |bytes, _| {
         let text = std::str::from_utf8(bytes).map_err(|e| e.to_string())?;
-        parse(text).map_err(|(line, what)| Problem { line: Some(line), what })
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        // Old Macs ended lines with a carriage return alone.
+        let lines = match text.contains('\n') {
+            true => Cow::Borrowed(text),
+            false => Cow::Owned(text.replace('\r', "\n")),
+        };
+        parse(&lines).map_err(|(line, what)| Problem { line: Some(line), what })
     },
 };
 

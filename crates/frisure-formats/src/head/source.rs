@@ -102,7 +102,7 @@ fn short(size: f64) -> String {
 
 /// The unit in which a mesh of that size would be a head of usual size.
 fn unit_hint(size: f64, scale: f64) -> String {
-    let units = [("m", 1.0), ("dm", 0.1), ("in", 0.0254), ("cm", 0.01), ("mm", 0.001)];
+    let units = [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254), ("dm", 0.1)];
     let sensible = |&&(_, u): &&(&str, f64)| {
         let metres = size / scale * u;
         (0.15..0.8).contains(&metres)
@@ -113,8 +113,8 @@ fn unit_hint(size: f64, scale: f64) -> String {
     }
 }
 
-/// The error for a file that is no mesh of OBJ.
+/// The error for a file that is no mesh with faces.
 pub(super) fn not_a_mesh(path: &Path, problem: impl Into<String>) -> HeadFileError {
-    let (expected, problem) = ("an OBJ mesh", problem.into());
+    let (expected, problem) = ("a mesh that hair can grow on", problem.into());
     HeadFileError::Format { path: path.into(), expected, problem }
 }

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use frisure_strands::Surface;
 use glam::DVec3;
 
+use super::seams::{Sets, joined};
+
 /// Least length of the open edges of a hole (m) that is told: hair covers what is smaller. Chosen.
 const LEAST: f64 = 0.02;
-
-/// Vertices nearer to each other (m) are one: meshes have seams, where vertices are written twice.
-const SEAM: f64 = 5e-5;
 
 /// Farthest that the scalp may be from the rest of the head (m), where it is a mesh of its own. A cap with room for hair below it
 /// lies a few millimetres off. Chosen.
@@ -116,52 +115,6 @@ fn to_triangle(p: DVec3, [a, b, c]: &[DVec3; 3]) -> f64 {
         .iter()
         .all(|(from, to)| (**to - **from).cross(p - **from).dot(normal) >= 0.0);
     if inside && normal != DVec3::ZERO { (p - *a).dot(normal).abs() } else { sides }
-}
-
-/// For each vertex the first one at its place.
-fn joined(places: &[DVec3]) -> Vec<u32> {
-    let cell = |p: DVec3| (p / (2.0 * SEAM)).floor().as_ivec3().to_array();
-    let mut cells: BTreeMap<[i32; 3], Vec<u32>> = BTreeMap::new();
-    let mut same = Vec::with_capacity(places.len());
-    for (i, &p) in places.iter().enumerate() {
-        // A vertex within `SEAM` lies in one of the eight cells about the corner that is nearest.
-        let [x, y, z] = cell(p - SEAM);
-        let near = (0..8).flat_map(|k| {
-            let at = [x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)];
-            cells.get(&at).into_iter().flatten()
-        });
-        let found = near.copied().find(|&v| places[v as usize].distance_squared(p) <= SEAM * SEAM);
-        let first = found.unwrap_or(i as u32);
-        if found.is_none() {
-            cells.entry(cell(p)).or_default().push(i as u32);
-        }
-        same.push(first);
-    }
-    same
-}
-
-/// Disjoint sets of numbers.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    /// The number that stands for the set of another.
-    fn of(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let above = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.of(a), self.of(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }
 
 #[cfg(test)]

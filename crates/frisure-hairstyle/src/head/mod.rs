@@ -6,18 +6,22 @@
 mod correspondence;
 mod derived;
 mod distance;
+mod face;
 mod facial_hair;
 mod fans;
 mod far;
+mod faults;
 mod guess;
 mod holes;
 mod landmarks;
 mod mannequin;
 mod mesher;
+mod packed;
 mod people;
 mod samples;
 mod scalp;
 mod sculpt;
+mod seams;
 mod spheres;
 mod splat;
 mod spline;
@@ -38,6 +42,7 @@ use thiserror::Error;
 pub(crate) use correspondence::{Correspondence, Corresponding};
 use derived::Derived;
 pub use distance::SignedDistance;
+pub use faults::MeshFaults;
 pub use holes::ScalpHoles;
 pub use landmarks::{Landmarks, Region};
 pub(crate) use scalp::Edge;
@@ -66,6 +71,8 @@ pub struct Head {
     landmarks: Landmarks,
     signed_distance: SignedDistance,
     stance: Stance,
+    /// Whether the faces of the mesh that it was made from looked inwards.
+    turned: bool,
     spheres: Derived<Vec<Sphere>>,
     fingerprint: u64,
     frame: (DVec3, DVec3),
@@ -181,23 +188,47 @@ impl Head {
         if name == MANNEQUIN {
             return Some(Self::mannequin());
         }
-        let person = people::Person::named(name)?;
-        let landmarks = Landmarks::guess(&person.surface);
+        Self::with_face(name, 0)
+    }
+
+    /// A built-in person whose face differs from that of the model: nose, mouth, chin, cheeks, eyes and brows are moved and sized by random
+    /// numbers that the seed `face` gives, 0 for the model's own. The scalp, the ears and the shoulders are those of the model. `None`, if
+    /// no person has this name; the mannequin is none.
+    #[must_use]
+    pub fn with_face(name: &str, face: u32) -> Option<Self> {
+        let person = people::Person::named(name, face)?;
+        // A longer nose moves neither hairline nor roots: landmarks, and the box in which roots are put in order, are those of the model.
+        let model = match face {
+            0 => None,
+            _ => Some(people::Person::named(name, 0)?.surface),
+        };
+        let model = model.as_ref().unwrap_or(&person.surface);
+        let (landmarks, frame) = (Landmarks::guess(model), model.bounds());
         let scalp = scalp::weights(&person.surface, &landmarks);
         let neck = landmarks.cranium_centre.z + mannequin::NECK * landmarks.width / 0.155;
         let distance = SignedDistance::with_torso(&person.surface, neck, None);
         let surface = person.surface.clone();
         let surface = surface.with_features(person.features(&distance)).ok()?;
-        Some(Self::assemble(surface, scalp, true, landmarks, distance, Stance::Upright))
+        let head = Self::assemble(surface, scalp, true, landmarks, distance, Stance::Upright);
+        Some(Self { frame, ..head })
     }
 
     /// A head from a mesh (m, z up, face towards −y), which may be open at the shoulders. Of one that leans or lies, as [`Self::stance`]
-    /// tells, the landmarks and the scalp lie with it.
+    /// tells, the landmarks and the scalp lie with it. Vertices that no face uses are left out, with their weights; faces that look inwards
+    /// are turned, which [`Self::mesh_faults`] tells.
     ///
     /// # Errors
     /// [`HeadError`], if the mesh cannot be a human head, the weights are not one number 0..1 per
     /// vertex, or hair grows on no face or on faces that are not on the head.
     pub fn from_surface(surface: Surface, scalp: ScalpSource) -> Result<Self, HeadError> {
+        let natural = scalp == ScalpSource::Guess;
+        let given = match scalp {
+            ScalpSource::Guess => None,
+            ScalpSource::Weights(weights) => Some(checked(weights, surface.positions().len())?),
+        };
+        let (surface, kept) = surface.without_strays();
+        let turned = surface.volume() < 0.0;
+        let surface = if turned { surface.turned_over() } else { surface };
         let (low, high) = surface.bounds();
         let size = high.z - low.z;
         if !HEIGHTS.contains(&size) {
@@ -218,10 +249,9 @@ impl Head {
                 Landmarks::guess_leaning(&surface, upright)
             }
         };
-        let natural = scalp == ScalpSource::Guess;
-        let scalp = match scalp {
-            ScalpSource::Guess => scalp::weights(&surface, &landmarks),
-            ScalpSource::Weights(weights) => checked(weights, surface.positions().len())?,
+        let scalp = match given {
+            None => scalp::weights(&surface, &landmarks),
+            Some(weights) => kept.iter().map(|&v| weights[v as usize]).collect(),
         };
         if !grows(&surface, &scalp) {
             return Err(HeadError::NoScalp);
@@ -229,7 +259,8 @@ impl Head {
         if let Some(distance) = holes::floating_scalp(&surface, &scalp).filter(|_| !natural) {
             return Err(HeadError::FloatingScalp { distance });
         }
-        Ok(Self::assemble(surface, scalp, natural, landmarks, signed_distance, stance))
+        let head = Self::assemble(surface, scalp, natural, landmarks, signed_distance, stance);
+        Ok(Self { turned, ..head })
     }
 
     fn assemble(
@@ -252,6 +283,7 @@ impl Head {
             landmarks,
             signed_distance,
             stance,
+            turned: false,
             spheres,
             fingerprint,
         }

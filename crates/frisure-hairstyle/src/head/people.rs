@@ -7,7 +7,9 @@ use frisure_strands::{Eye, Features, Surface, Tint};
 use glam::{DVec3, Vec3};
 
 use super::distance::SignedDistance;
+use super::face;
 use super::facial_hair::{self, FacialLines};
+use super::packed::Reader;
 use super::subdivide::Quads;
 
 /// Faces, and the tints of vertices.
@@ -56,15 +58,14 @@ pub(super) struct Person {
 }
 
 impl Person {
-    /// A person by name.
-    pub(super) fn named(name: &str) -> Option<Self> {
+    /// A person by name and the seed of the face ([`face::vary`]).
+    pub(super) fn named(name: &str, face: u32) -> Option<Self> {
         let (file, looks) = entry(name)?;
         let mut file = Reader(file);
         let (low, high) = (file.point(), file.point());
         let radius = f64::from(file.f32());
-        let eye = file.point();
-        let [upper, lower, brow] = LINES.map(|n| (0..n).map(|_| file.point()).collect());
-        let lines = FacialLines { brow, fullness: looks.brows, upper, lower, eye, middle: 0.0 };
+        let marks: Vec<DVec3> =
+            (0..1 + LINES.iter().sum::<usize>()).map(|_| file.point()).collect();
         let mut places = file.columns::<3>(vertices());
         if name != FIRST {
             let mut first = Reader(entry(FIRST)?.0);
@@ -74,7 +75,18 @@ impl Person {
                 *x = [0, 1, 2].map(|axis| x[axis].wrapping_add(y[axis]));
             });
         }
-        let cage = cage(&places, low, high);
+        // Whole numbers up to 65535 in the box.
+        let place = |part: &[u16; 3]| {
+            let part = DVec3::from_array(part.map(|x| f64::from(x) / 65535.0));
+            low + part * (high - low)
+        };
+        let mut places: Vec<DVec3> = places.iter().map(place).chain(marks).collect();
+        face::vary(face, &mut places);
+        let mut marks = places.split_off(vertices()).into_iter();
+        let eye = marks.next()?;
+        let [upper, lower, brow] = LINES.map(|n| marks.by_ref().take(n).collect());
+        let lines = FacialLines { brow, fullness: looks.brows, upper, lower, eye, middle: 0.0 };
+        let cage = cage(&places);
         let fine = cage.subdivided();
         let mut positions: Vec<DVec3> = fine.values.iter().map(|v| v.place.as_dvec3()).collect();
         let tint = |v: &Corner| Tint { lips: looks.lips * v.tint.lips, ..v.tint };
@@ -135,8 +147,8 @@ fn vertices() -> usize {
     usize::from(Reader(TOPOLOGY).u16())
 }
 
-/// The mesh before subdivision: faces of the topology, and places in the box from `low` to `high` (m), as whole numbers up to 65535.
-fn cage(places: &[[u16; 3]], low: DVec3, high: DVec3) -> Quads<Corner> {
+/// The mesh before subdivision: faces of the topology, and places (m).
+fn cage(places: &[DVec3]) -> Quads<Corner> {
     let mut topology = Reader(TOPOLOGY);
     let [vertices, faces] = [topology.u16(), topology.u16()].map(usize::from);
     let faces = topology.columns::<4>(faces).into_iter().map(|face| face.map(u32::from)).collect();
@@ -145,10 +157,8 @@ fn cage(places: &[[u16; 3]], low: DVec3, high: DVec3) -> Quads<Corner> {
             [0, 1, 2].map(|column| f32::from(topology.0[column * vertices + vertex]) / 255.0);
         Tint { lips, flush, garment, scalp: 0.0 }
     };
-    let corner = |(vertex, place): (usize, &[u16; 3])| {
-        let part = DVec3::from_array(place.map(|x| f64::from(x) / 65535.0));
-        Corner { place: (low + part * (high - low)).as_vec3(), tint: tint(vertex) }
-    };
+    let corner =
+        |(vertex, place): (usize, &DVec3)| Corner { place: place.as_vec3(), tint: tint(vertex) };
     let values = places.iter().enumerate().map(corner).collect();
     Quads { values, faces }
 }
@@ -188,49 +198,6 @@ fn add_ball(eye: &Eye, positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>
     }
 }
 
-/// Numbers of a file, little-endian. The files are part of the program: they are as long as they should be.
-struct Reader<'a>(&'a [u8]);
-
-impl Reader<'_> {
-    fn take<const N: usize>(&mut self) -> [u8; N] {
-        let (first, rest) = self.0.split_first_chunk().expect("the file is part of the program");
-        self.0 = rest;
-        *first
-    }
-
-    fn u16(&mut self) -> u16 {
-        u16::from_le_bytes(self.take())
-    }
-
-    fn f32(&mut self) -> f32 {
-        f32::from_le_bytes(self.take())
-    }
-
-    /// A table of `rows`: in each column the change from row to row, small ones of either sign as small numbers (2 n, or
-    /// −2 n − 1); low bytes of all first, then high ones. So the page of the salon, which is compressed, weighs less.
-    fn columns<const N: usize>(&mut self, rows: usize) -> Vec<[u16; N]> {
-        let (low, rest) = self.0.split_at(N * rows);
-        let (high, rest) = rest.split_at(N * rows);
-        self.0 = rest;
-        let mut table = vec![[0; N]; rows];
-        for column in 0..N {
-            let mut value = 0_u16;
-            for (row, out) in table.iter_mut().enumerate() {
-                let at = column * rows + row;
-                let code = u16::from_le_bytes([low[at], high[at]]);
-                let change = if code & 1 == 0 { code >> 1 } else { !(code >> 1) };
-                value = value.wrapping_add(change);
-                out[column] = value;
-            }
-        }
-        table
-    }
-
-    fn point(&mut self) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| f64::from(self.f32())))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -266,5 +233,48 @@ mod tests {
             assert!(features.eye_at(front).is_some() && features.eye_at(marks.ear).is_none());
         }
         assert_eq!(Head::named("nobody"), None);
+        assert!(Head::with_face(super::super::MANNEQUIN, 1).is_none());
+    }
+
+    #[test]
+    fn faces_differ_and_heads_stay() {
+        for name in names() {
+            let model = Head::named(name).unwrap();
+            assert_eq!(Head::with_face(name, 0).as_ref(), Some(&model));
+            let mut others: Vec<Vec<DVec3>> = Vec::new();
+            for face in 1..=12 {
+                let head = Head::with_face(name, face).unwrap();
+                let positions = head.surface().positions();
+                let moved: Vec<DVec3> = positions
+                    .iter()
+                    .zip(model.surface().positions())
+                    .map(|(a, b)| *a - *b)
+                    .collect();
+                let most = moved.iter().map(|d| d.length()).fold(0.0, f64::max);
+                assert!((2e-3..15e-3).contains(&most), "{name} {face}: {most}");
+                // Where hair grows, at the ears and below the neck nothing moves.
+                let ears = model.landmarks().ear;
+                for ((from, by), weight) in
+                    model.surface().positions().iter().zip(&moved).zip(model.scalp())
+                {
+                    let stays = *weight > 0.5 || from.z < -0.2 || from.distance(ears) < 0.02;
+                    assert!(!stays || by.length() < 1e-3, "{name} {face}: {from} by {by}");
+                }
+                assert_eq!(head.frame(), model.frame());
+                let scalp = |head: &Head| -> f64 { head.scalp().iter().sum() };
+                assert!((scalp(&head) / scalp(&model) - 1.0).abs() < 0.02, "{name} {face}");
+                for other in &others {
+                    let apart = moved.iter().zip(other).map(|(a, b)| a.distance(*b));
+                    assert!(apart.fold(0.0, f64::max) > 2e-3, "{name} {face}");
+                }
+                // Brows and lashes stand on the skin.
+                let features = head.surface().features().unwrap();
+                for strand in features.hairs.iter() {
+                    let root = head.signed_distance().value(strand.points[0].as_dvec3());
+                    assert!(root.abs() < 4e-3, "{name} {face}: {root}");
+                }
+                others.push(moved);
+            }
+        }
     }
 }

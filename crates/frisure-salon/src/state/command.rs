@@ -47,6 +47,8 @@ pub enum Command {
     Retry,
     /// Uses a mesh (a path) as the head; `None` is the mannequin.
     Head(Option<String>),
+    /// Gives the built-in person the face of a seed.
+    Face(u32),
     /// Uses the hair of a file (a path); `None` is the scene's own.
     Groom(Option<String>),
     /// Activates a tool.

@@ -127,6 +127,13 @@ impl Salon {
         self.change(&label.unwrap_or_else(|| tr!("changed")), text, false);
     }
 
+    /// Gives the built-in person the face of a seed.
+    pub(super) fn set_face(&mut self, face: u32) {
+        let Some(base) = self.base() else { return };
+        let text = edit::set_key(base, "head.face", &face.to_string());
+        self.change(&tr!("another-face"), text, false);
+    }
+
     /// Removes a key, so that its default holds.
     pub(super) fn reset(&mut self, key: &'static str) {
         let Some(base) = self.base() else { return };

@@ -28,6 +28,7 @@ impl Salon {
             Command::File(path) => self.queue_file(path),
             Command::Retry => self.retry(),
             Command::Head(path) => self.set_file(path, Contents { head: true, groom: false }),
+            Command::Face(face) => self.set_face(face),
             Command::Groom(path) => self.set_file(path, Contents { head: false, groom: true }),
             Command::Take(tool) => self.take_tool(tool),
             Command::BrushSize(radius) => self.set_brush(radius),

@@ -124,9 +124,12 @@ fn files(ui: &mut Ui, salon: &Salon, parsed: &ParsedScene, out: &mut Vec<Command
                 out.push(Command::Head(None));
             }
         }
-        HeadSource::Person(name) => {
+        HeadSource::Person { name, face } => {
             let name = locale::named("head", name, name);
             ui.label(tr!("head-is", name = &*name));
+            if widgets::plain(ui, "another-face").clicked() {
+                out.push(Command::Face(face + 1));
+            }
         }
         HeadSource::Mannequin => {
             ui.label(tr!("head-is-mannequin"));

@@ -19,7 +19,7 @@ use crate::scene::{GroomFile, HeadSource};
 pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource> {
     let Some(mesh) = document.get::<Text>(HEAD[0])? else {
         return match document.first(&HEAD[1..]) {
-            None => Ok(model(document, "head.model")?.unwrap_or(HeadSource::Mannequin)),
+            None => built_in(document),
             Some(key) => {
                 let problem = format!("`{key}` is about a mesh, and the scene has none");
                 Err(document.error(key, problem, "add `mesh = \"head.obj\"` to `[head]`"))
@@ -86,6 +86,23 @@ fn groom_head(document: &Document<'_>, folder: &Path) -> Result<Option<HeadSourc
         return Ok(Some(HeadSource::Mesh(HeadFile::new(folder.join(mesh)))));
     }
     model(document, "groom.head_model")
+}
+
+/// The built-in head of the scene.
+fn built_in(document: &Document<'_>) -> Result<HeadSource> {
+    let mut head = model(document, "head.model")?.unwrap_or(HeadSource::Mannequin);
+    let seed = document.number("head.face").unwrap_or(0.0) as u32;
+    match &mut head {
+        HeadSource::Person { face, .. } => *face = seed,
+        _ if seed == 0 => {}
+        _ => {
+            let problem = "the mannequin has one face";
+            let hint =
+                "name a person in `head.model`, such as \"european-woman\", or leave `face` out";
+            return Err(document.error("head.face", problem, hint));
+        }
+    }
+    Ok(head)
 }
 
 /// The built-in head that a key names.

@@ -64,7 +64,7 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
     hair::wisps(&document, &mut spec)?;
     implantation::implantation(&document, &mut spec.implantation)?;
     let head = head::head(&document, folder)?;
-    if let HeadSource::Person(name) = head {
+    if let HeadSource::Person { name, .. } = head {
         spec.implantation.hairline = Hairline::usual(name);
     }
     spec.regions = implantation::regions(&document)?;
