@@ -81,6 +81,8 @@ def table(presets: list[dict]) -> list[dict]:
                 "curl pitch (mm)": f"{1e3 * curl['pitch'] * scale:.2f}",
                 "colour": draws.choices(list(weights), list(weights.values()))[0],
                 "head": draws.choice(models(name)),
+                # Each has a face of its own; 0 would be that of the model.
+                "face": len(people) + 1,
             })  # fmt: skip
     return people
 
