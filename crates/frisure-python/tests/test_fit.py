@@ -56,7 +56,7 @@ def test_a_section_that_is_not_known_makes_stiffness_uncertain() -> None:
     # The smaller bending stiffness of an ellipse of the same area: I = A²/(4π r).
     away = [np.abs(f.stiffness_over_weight - STIFFNESS / 1.4) / f.stiffness_over_weight_sd for f in (round_, right, any_)]
     assert (away[0] > 3).mean() > 0.5 and (away[1] < 1.96).mean() > 0.85 and (away[2] < 1.96).mean() > 0.9
-    assert (any_.stiffness_over_weight_sd > 1.5 * right.stiffness_over_weight_sd).mean() > 0.9
+    assert (any_.stiffness_over_weight_sd > 1.3 * right.stiffness_over_weight_sd).mean() > 0.9
     assert np.allclose(right.axis_ratio, 1.4, atol=0.05) and np.allclose(round_.axis_ratio, 1)
     assert any_.torsion_ratio_by_state.shape == (100, 1)
 
