@@ -68,6 +68,34 @@ fn faces_that_lie_on_each_other_are_refused() {
 }
 
 #[test]
+fn marks_and_line_ends_of_other_systems_are_read() {
+    let plain = head(TETRAHEDRON, |_| {}).unwrap();
+    let marked = head(format!("\u{feff}{TETRAHEDRON}"), |_| {}).unwrap();
+    let old = head(TETRAHEDRON.replace('\n', "\r"), |_| {}).unwrap();
+    let windows = head(TETRAHEDRON.replace('\n', "\r\n"), |_| {}).unwrap();
+    assert!([marked, old, windows].iter().all(|mesh| *mesh == plain));
+}
+
+#[test]
+fn files_of_other_formats_are_told_which_are_read() {
+    let named = |name: &'static str, bytes: &[u8]| {
+        head(bytes, |h| {
+            let other = h.path.with_file_name(name);
+            fs::rename(&h.path, &other).unwrap();
+            h.path = other;
+        })
+    };
+    for (name, bytes) in
+        [("head.stl", &b"\xff\x00binary"[..]), ("head.fbx", b"Kaydara FBX"), ("head", b"")]
+    {
+        let error = named(name, bytes).unwrap_err();
+        assert!(error.contains("OBJ, USD, glTF or PLY"), "{error}");
+    }
+    // The content decides where the name says nothing.
+    assert!(named("head.txt", TETRAHEDRON.as_bytes()).is_ok());
+}
+
+#[test]
 fn what_cannot_be_a_head() {
     let fault = |text: &str| head(text, |_| {}).unwrap_err();
     assert_eq!(fault(""), "`head.obj` is not a mesh that hair can grow on: it has no vertices");

@@ -32,10 +32,10 @@ const SPACE: f64 = 0.03;
 /// Least area (m²) of a part that counts. Chosen.
 const LEAST: f64 = 1e-4;
 
-/// The area of a scalp (m²) over the square of the width of the cranium (m): that of the built-in heads, 0.06 m² at 15 cm.
+/// The area of a scalp (m²) over the square of the width of the cranium (m): about that of the built-in heads, 0.06 m² at 15 cm.
 const SCALP: f64 = 2.7;
 
-/// How many times as large a scalp is told. Chosen: the built-in heads and the busts that this was tried with are within 0.7 and 1.3.
+/// How many times as large a scalp is told. Chosen: those of all built-in heads are smaller, as a test asks.
 const LARGE: f64 = 1.8;
 
 impl Head {
