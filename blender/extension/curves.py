@@ -36,9 +36,14 @@ def hang(hair, head) -> None:
     bpy.context.view_layer.update()
 
 
+def uv_map_on(hair, head) -> str:
+    """The name of the UV map by which the curves are bound to a head; empty where they are bound to none, or to another one."""
+    return hair.data.surface_uv_map if hair.data.surface == head else ""
+
+
 def attach(hair, head) -> None:
     """Binds the curves to the surface of the head: Blender's own tools and nodes find the roots there."""
-    uv_map = heads.ensure_uv_map(head, hair.data.surface_uv_map if hair.data.surface == head else "")
+    uv_map = heads.ensure_uv_map(head, uv_map_on(hair, head))
     heads.ensure_rest_position(head)
     hair.data.surface, hair.data.surface_uv_map = head, uv_map
 

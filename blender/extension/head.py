@@ -57,10 +57,11 @@ def check(head) -> None:
         )
 
 
-def check_editable(head) -> None:
-    """Raises `HeadError` for a mesh of another file: what is written into it is lost."""
-    if head.data.library is not None:
-        raise HeadError(f"The mesh of {head.name} is linked from another file: make it local, or override it")
+def check_editable(*blocks) -> None:
+    """Raises `HeadError` for data that are linked from another file: what is written into them is lost."""
+    for block in blocks:
+        if not block.is_editable:
+            raise HeadError(f"{block.name} is linked from another file: make it local, or override it")
 
 
 def ensure_uv_map(head, wanted: str = "") -> str:
@@ -74,7 +75,7 @@ def ensure_uv_map(head, wanted: str = "") -> str:
         return wanted
     if mesh.uv_layers.active is not None:
         return mesh.uv_layers.active.name
-    check_editable(head)
+    check_editable(mesh)
     points = np.empty(3 * len(mesh.vertices))
     mesh.vertices.foreach_get("co", points)
     corners = np.empty(len(mesh.loops), dtype=np.int32)
@@ -125,7 +126,7 @@ def ensure_rest_position(head) -> None:
         kept.data.foreach_get("vector", before)
         if np.array_equal(before, points):
             return
-    check_editable(head)
+    check_editable(mesh)
     kept = kept or mesh.attributes.new(REST_POSITION, "FLOAT_VECTOR", "POINT")
     kept.data.foreach_set("vector", points)
 

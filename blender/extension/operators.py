@@ -153,7 +153,7 @@ class OBJECT_OT_frisure_add(Solving, bpy.types.Operator):
         head = context.active_object
         heads.check(head)
         heads.scalp_faces(head, self.scalp)
-        heads.check_editable(head)
+        heads.check_editable(head.data)
         hair = curves.new_object(head)
         self._made = hair.name
         kept = hair.frisure
@@ -196,8 +196,7 @@ grown and combed"""
             raise heads.HeadError(f"{hair.name} has no surface: set the mesh of the head in its data properties")
         heads.check(head)
         curves.read(hair)
-        if hair.library is not None or hair.data.library is not None:
-            raise heads.HeadError(f"{hair.name} is linked from another file: make it local, or override it")
+        heads.check_editable(hair, hair.data)
         kept = hair.frisure
         surface = (hair.data.surface, hair.data.surface_uv_map)
         self._before = (hair.name, kept.head, kept.source, kept.scene, kept.hair_type, surface)

@@ -48,7 +48,7 @@ def notice(hair) -> None:
     """Solves hair again, if its scene is not that of its properties."""
     _changed.pop(hair.name, None)
     properties = hair.frisure
-    if not properties.scene or properties.source is not None or hair.library is not None:
+    if not properties.scene or properties.source is not None or not hair.is_editable:
         return
     try:
         same = solver.text_of(hair) == properties.scene

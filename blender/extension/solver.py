@@ -127,8 +127,7 @@ class Solution:
 
     def __init__(self, hair, text: str, step=None, coarse=False):
         properties = hair.frisure
-        if hair.library is not None or hair.data.library is not None:
-            raise heads.HeadError(f"{hair.name} is linked from another file: make it local, or override it")
+        heads.check_editable(hair, hair.data)
         if hair.data.users > 1:
             # Another object shows the same curves, with steps of its own.
             hair.data = hair.data.copy()
@@ -141,8 +140,7 @@ class Solution:
         _, self.like, _ = _solved.get(hair.session_uid, ("", None, []))
         if properties.head is None or properties.head.name not in bpy.data.objects:
             raise heads.HeadError(f"The head of {hair.name} is gone: choose one in the panel")
-        uv_map = hair.data.surface_uv_map if hair.data.surface == properties.head else ""
-        form = heads.Form(properties.head, properties.scalp, uv_map)
+        form = heads.Form(properties.head, properties.scalp, curves.uv_map_on(hair, properties.head))
         self.without_modifiers = not coarse and heads.modified(properties.head)
         self.head = input_file("head.obj", form.arrays, form.write)
         self.scalp = bool(properties.scalp)
