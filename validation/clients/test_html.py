@@ -164,6 +164,23 @@ def test_background_size_and_turning(window):
     complete(window)
 
 
+def test_curves_without_a_width_are_seen_to_the_corners_of_their_box(frisure, tmp_path):
+    """Bars along the diagonals of a cube: their ends are as far from its middle as anything in it can be."""
+    ends = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], "f4")
+    along = np.linspace(0.0, 1.0, 9, dtype="f4")
+    positions = 0.1 * ends[:, None] * along[None, :, None]
+    radii = np.zeros(positions.shape[:2], "f4")
+    colour = np.broadcast_to(np.array([0.6, 0.05, 0.02], "f4"), (len(ends), 3))
+    np.savez(tmp_path / "star.npz", positions=positions, radii=radii, color=colour)
+    frisure.convert(tmp_path / "star.npz", tmp_path / "star.html")
+    window = opened(tmp_path / "star.html")
+    complete(window)
+    hair = red(pixels(window.screenshot()))
+    window.close()
+    assert hair.any()
+    assert not hair[:2].any() and not hair[-2:].any() and not hair[:, :2].any() and not hair[:, -2:].any()
+
+
 def test_a_browser_without_webgl_is_told(page):
     window = opened(page, flags=["--disable-3d-apis"])
     window.wait_for("document.getElementById('notice').innerText.includes('hardware acceleration')")

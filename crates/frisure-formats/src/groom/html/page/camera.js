@@ -4,9 +4,16 @@
 const FIELD = 0.5;
 
 class Camera {
-  constructor(low, high) {
+  // A box (m), and points in it, four numbers each, that are all seen from everywhere at first.
+  constructor(low, high, points) {
     this.middle = low.map((x, k) => 0.5 * (x + high[k]));
-    this.radius = 0.5 * Math.hypot(...low.map((x, k) => high[k] - x));
+    // Heads do not reach into the corners of their box.
+    this.radius = 0.92 * 0.5 * Math.hypot(...low.map((x, k) => high[k] - x));
+    const [x, y, z] = this.middle;
+    for (let i = 0; i < points.length; i += 4) {
+      const reach = Math.hypot(points[i] - x, points[i + 1] - y, points[i + 2] - z);
+      if (reach > this.radius) this.radius = reach;
+    }
     this.reset();
   }
 
@@ -44,7 +51,7 @@ class Camera {
     const [sh, ch] = [Math.sin(this.height), Math.cos(this.height)];
     const forward = [-sa * ch, ca * ch, -sh], right = [ca, sa, 0], above = [-sa * sh, ca * sh, ch];
     const narrow = Math.min(1, aspect);
-    const distance = 0.92 * this.radius / (Math.sin(FIELD / 2) * narrow * this.zoom);
+    const distance = this.radius / (Math.sin(FIELD / 2) * narrow * this.zoom);
     const eye = this.target.map((x, k) => x - distance * forward[k]);
     return { eye, forward, right, above, distance };
   }

@@ -67,8 +67,9 @@ function widen(places, strands) {
   for (let i = 3; i < places.length; i += 4) sum += 2 * places[i];
   const mean = sum / (places.length / 4);
   const wanted = 70e-6 * Math.min(6, Math.max(1, (100000 / strands) ** 0.7));
-  const factor = mean > 0 ? Math.max(1, wanted / mean) : 1;
-  for (let i = 3; i < places.length; i += 4) places[i] *= factor;
+  const factor = Math.max(1, wanted / mean);
+  // Curves without a width are hairs all the same.
+  for (let i = 3; i < places.length; i += 4) places[i] = mean > 0 ? factor * places[i] : 0.5 * wanted;
 }
 
 // Colour of each point (sRGB), and a number of its strand.
