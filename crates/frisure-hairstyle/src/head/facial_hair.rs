@@ -34,7 +34,7 @@ const POINTS: usize = 6;
 const COUNTS: [u32; 3] = [480, 150, 70];
 
 /// Short lashes of an upper lid beside the others: they make its edge dark.
-const SHORT_LASHES: u32 = 110;
+const SHORT_LASHES: u32 = 190;
 
 /// Width of the edge of a lid that lashes grow on (m).
 const LID_EDGE: f64 = 1.0e-3;
@@ -82,7 +82,9 @@ pub(super) fn grown(features: Features, lines: &FacialLines, skin: &SignedDistan
 /// A hair of the brow: it leaves upwards at the nose and along the brow farther out, and lies on the skin.
 fn brow_hair(lines: &FacialLines, skin: &SignedDistance, random: &mut Stream) -> [DVec3; POINTS] {
     // Denser in the middle, thinner at both ends: the mean of two uniform numbers, stretched.
-    let t = (0.5 + 0.62 * (random.unit() + random.unit() - 1.0)).clamp(0.0, 1.0);
+    let t = 0.5 + 0.62 * (random.unit() + random.unit() - 1.0);
+    // What is stretched beyond an end is folded back: at the end itself the hairs would stand in one row.
+    let t = t.abs().min(1.0 - (1.0 - t).abs());
     // Dense to both edges: half uniform, half the mean of two.
     let across = random.unit() + 0.5 * (random.unit() + random.unit()) - 1.0;
     let [inner, outer] = BROW;

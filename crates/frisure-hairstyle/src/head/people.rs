@@ -22,7 +22,7 @@ const PEOPLE: [(&str, &[u8], Looks); 4] = [
         include_bytes!("../../heads/african-woman.bin"),
         Looks { brows: 1.3, lips: 1.0 },
     ),
-    ("asian-man", include_bytes!("../../heads/asian-man.bin"), Looks { brows: 1.6, lips: 0.55 }),
+    ("asian-man", include_bytes!("../../heads/asian-man.bin"), Looks { brows: 1.6, lips: 0.8 }),
     (FIRST, include_bytes!("../../heads/european-woman.bin"), Looks { brows: 1.25, lips: 1.0 }),
     ("older-man", include_bytes!("../../heads/older-man.bin"), Looks { brows: 1.8, lips: 0.45 }),
 ];
@@ -222,7 +222,7 @@ mod tests {
             assert!(distance(0.0, -0.25, 0.0) > 0.05, "{name}");
             let features = surface.features().unwrap();
             let brow = (480.0 * entry(name).unwrap().1.brows) as usize;
-            assert_eq!(features.hairs.len(), 2 * (330 + brow), "{name}");
+            assert_eq!(features.hairs.len(), 2 * (410 + brow), "{name}");
             for strand in features.hairs.iter() {
                 let [root, tip] = [strand.points[0], strand.points[strand.points.len() - 1]]
                     .map(|p| head.signed_distance().value(p.as_dvec3()));
