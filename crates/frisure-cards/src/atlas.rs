@@ -4,7 +4,7 @@ use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use crate::layout::Place;
+use crate::layout::{GAP, Place};
 use crate::raster;
 use crate::ribbon::{Even, Ribbon};
 
@@ -25,6 +25,9 @@ pub struct Atlas {
     ///   number of the strand, blue the way from root (0) to tip (255).
     pub textures: [Vec<u8>; 3],
 }
+
+/// Texels of the gap about a strip that have the colour of its edge: half of the gap between two.
+const MARGIN: usize = GAP / 2;
 
 /// What is drawn: the strands with their colours.
 pub(crate) struct Paint<'a> {
@@ -63,13 +66,23 @@ impl Atlas {
             .zip(places)
             .map(|((rows, ribbon), place)| paint.strip(rows, ribbon, place))
             .collect();
-        let mut textures = [0, 1, 2].map(|_| vec![0; 4 * size * size]);
+        let mut textures = [usual_colour(&drawn), [128, 255, 255, 255], [128, 0, 0, 255]]
+            .map(|part| part.repeat(size * size));
         for (texels, place) in drawn.iter().zip(places) {
-            for (i, texel) in texels.iter().enumerate() {
-                let (x, y) = (place.x + i % place.width, place.y + i / place.width);
-                let at = 4 * (y * size + x);
+            let Place { width, height, .. } = *place;
+            // The edge of a strip goes on into the gap about it, without covering anything there: filtering mixes that in.
+            for (down, across) in (0..height + 2 * MARGIN)
+                .flat_map(|down| (0..width + 2 * MARGIN).map(move |across| (down, across)))
+            {
+                let inside = |k: usize, of: usize| k.saturating_sub(MARGIN).min(of - 1);
+                let (x, y) = (inside(across, width), inside(down, height));
+                let texel = &texels[y * width + x];
+                let at = 4 * ((place.y + down - MARGIN) * size + place.x + across - MARGIN);
                 for (texture, part) in textures.iter_mut().zip(texel.as_chunks::<4>().0) {
                     texture[at..at + 4].copy_from_slice(part);
+                }
+                if (down, across) != (y + MARGIN, x + MARGIN) {
+                    textures[0][at + 3] = 0;
                 }
             }
         }
@@ -81,6 +94,20 @@ impl Atlas {
         let at = |x: f32| ((x * self.size as f32) as usize).min(self.size - 1);
         f32::from(self.textures[0][4 * (at(v) * self.size + at(u)) + 3]) / 255.0
     }
+}
+
+/// The mean colour of what hair covers, covering nothing: for where there is no strip, so that coarse levels of a texture mix no black in.
+fn usual_colour(drawn: &[Vec<[u8; 12]>]) -> [u8; 4] {
+    let (mut sum, mut covered) = ([0_u64; 3], 0);
+    for texel in drawn.iter().flatten() {
+        let part = u64::from(texel[3]);
+        covered += part;
+        for (sum, x) in sum.iter_mut().zip(texel) {
+            *sum += part * u64::from(*x);
+        }
+    }
+    let [r, g, b] = sum.map(|sum| sum.checked_div(covered).unwrap_or(0) as u8);
+    [r, g, b, 0]
 }
 
 impl Paint<'_> {
@@ -99,6 +126,7 @@ impl Paint<'_> {
         let covered: f32 = texels.iter().map(|t| 1.0 - t.through).sum();
         let sum: Vec3 = texels.iter().map(|t| t.colour).sum();
         let usual = if covered > 0.0 { sum / covered } else { Vec3::from_array(self.colour) };
+        texels.chunks_mut(width).for_each(fill_between);
         texels.iter().map(|t| t.finished(usual, 0.5 * ribbon.width())).collect()
     }
 
@@ -192,7 +220,7 @@ impl Texel {
     fn finished(&self, usual: Vec3, half: f32) -> [u8; 12] {
         let alpha = 1.0 - self.through;
         let byte = |x: f32| (255.0 * x.clamp(0.0, 1.0)).round() as u8;
-        let mean = |x: f32| if alpha > 0.0 { x / alpha } else { 0.0 };
+        let mean = |x: f32| if alpha > 0.0 { x / alpha } else { x };
         let colour = if alpha > 0.02 { self.colour / alpha } else { usual };
         let [r, g, b] = colour.to_array().map(|x| byte(encoded(x)));
         let flow = if alpha > 0.0 { self.flow.normalize_or(Vec2::Y) } else { Vec2::Y };
@@ -213,7 +241,41 @@ impl Texel {
     }
 }
 
+/// Gives what is between the hairs of a row of texels the depth, the number and the way from the root of the nearest hair: filtering mixes it in.
+fn fill_between(row: &mut [Texel]) {
+    let hairs: Vec<usize> = (0..row.len()).filter(|&x| row[x].through < 1.0).collect();
+    for x in 0..row.len() {
+        let next = hairs.partition_point(|&hair| hair < x);
+        let near = [next.checked_sub(1), Some(next)].into_iter().flatten();
+        let near = near.filter_map(|i| hairs.get(i)).min_by_key(|hair| hair.abs_diff(x));
+        let Some(&hair) = near.filter(|&&hair| hair != x) else { continue };
+        let Texel { through, depth, number, way, .. } = row[hair];
+        let part = 1.0 - through;
+        row[x] = Texel { depth: depth / part, number: number / part, way: way / part, ..row[x] };
+    }
+}
+
 /// Linear light in the encoding of displays.
 fn encoded(x: f32) -> f32 {
     if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_texels_between_hairs_have_the_numbers_of_the_nearest_hair() {
+        let mut hair: Texel = EMPTY;
+        let of = Texel { depth: 2e-3, number: 200.0, way: 0.75, ..EMPTY };
+        hair.cover(&of, 0.5);
+        let mut row = [EMPTY, EMPTY, hair, EMPTY];
+        fill_between(&mut row);
+        for texel in [row[0], row[1], row[3]] {
+            assert_eq!((texel.depth, texel.number, texel.way), (2e-3, 200.0, 0.75));
+            assert_eq!(texel.finished(Vec3::ONE, 4e-3)[3], 0, "it covers nothing");
+        }
+        let bytes = row.map(|texel| texel.finished(Vec3::ONE, 4e-3));
+        assert!(bytes.iter().all(|texel| texel[8..] == bytes[0][8..]), "{bytes:?}");
+    }
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum CardsError {
     /// No strand has a length.
-    #[error("the groom has no strand with a length")]
+    #[error("the groom has no strand with a length and a width")]
     NoStrands,
     /// A number is outside of its range.
     #[error("{what} {value} is not between {least} and {most}")]

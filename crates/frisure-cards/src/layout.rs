@@ -3,7 +3,7 @@
 use crate::ribbon::Ribbon;
 
 /// Texels between two places, so that filtering mixes none of them.
-const GAP: usize = 4;
+pub(crate) const GAP: usize = 4;
 
 /// Texels along the hair for one across it: across are the edges of hairs, along little changes, but where curls are drawn.
 /// Chosen.

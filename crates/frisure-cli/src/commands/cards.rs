@@ -95,7 +95,8 @@ fn hint(error: &CardsError) -> &'static str {
 /// What was made, how far it is from the strands, and where it is.
 fn summary(cards: &Cards, strands: usize, written: &[PathBuf]) -> String {
     let Cards { strands: long, drawn, .. } = cards;
-    let mut text = format!("{strands} strands, {long} with a length, drawn as {drawn}\n");
+    let mut text =
+        format!("{strands} strands, {long} with a length and a width, drawn as {drawn}\n");
     text.push_str("level  cards  triangles  texture  silhouette  coverage  covered area\n");
     for (number, level) in cards.levels.iter().enumerate() {
         let Level { cards, mesh, atlas, differences, .. } = level;

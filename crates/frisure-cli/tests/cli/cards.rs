@@ -19,7 +19,11 @@ fn a_scene_and_its_groom_have_as_many_cards_on_any_number_of_threads() {
         let arguments = ["cards", input, "-o", output, "--threads", threads];
         let ran = room.run(&[&arguments[..], &SMALL].concat());
         assert_eq!(ran.code, Some(0), "{}", ran.err);
-        assert!(ran.out.contains("400 strands, 400 with a length, drawn as 400\n"), "{}", ran.out);
+        assert!(
+            ran.out.contains("400 strands, 400 with a length and a width, drawn as 400\n"),
+            "{}",
+            ran.out
+        );
         let cards = |level: &str| -> f64 {
             let mut rows = ran.out.lines().map(str::split_whitespace);
             let row = rows.find_map(|mut row| (row.next() == Some(level)).then_some(row));
@@ -59,7 +63,7 @@ fn what_cannot_be_is_told() {
         (&["a.usdc", "-o", "b.glb", "--texture-size", "32"], "between 64 and 8192"),
         (&["a.usdc", "-o", "b.glb", "--cards", "400", "--texture-size", "64"], "`--texture-size`"),
         (&["a.toml", "-o", "b.glb", "--unit", "cm"], "are for grooms"),
-        (&["dots.obj", "-o", "b.glb"], "no strand with a length"),
+        (&["dots.obj", "-o", "b.glb"], "no strand with a length and a width"),
         (&["a.usdc", "-o", "b.glb", "-o", "b.glb"], "is given twice"),
     ];
     for (arguments, part) in cases {

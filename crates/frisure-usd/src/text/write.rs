@@ -240,7 +240,11 @@ impl Text<'_> {
             Data::I64(v) => self.integer(v[at]),
             Data::F32(v) => self.float(v[at]),
             Data::F64(v) => self.word(&v[at].to_string()),
-            Data::Words(v) if scalar == ScalarType::Asset => self.words(&["@", &v[at], "@"]),
+            // What has an `@` is between three of them.
+            Data::Words(v) if scalar == ScalarType::Asset => {
+                let mark = if v[at].contains('@') { "@@@" } else { "@" };
+                self.words(&[mark, &v[at].replace("@@@", "\\@@@"), mark]);
+            }
             Data::Words(v) => self.quoted(&v[at]),
         }
     }
