@@ -36,7 +36,9 @@ fn warn(groom: &Groom, writing: Writing) {
     let strands = groom.strands();
     let is_point = |points: &[Vec3]| points.iter().all(|p| *p == points[0]);
     let missing = strands.iter().filter(|strand| is_point(strand.points)).count();
-    if missing > 0 {
+    // Of fewer hairs only such are chosen as cover something.
+    let fewer = writing.hairs.is_some_and(|hairs| hairs < groom.hairs.len());
+    if missing > 0 && !fewer {
         let all = strands.len();
         console::note(&format!(
             "{missing} of {all} hairs have no length; they are written as they are"

@@ -33,13 +33,13 @@ pub struct Fit {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum FitError {
     /// More hairs are wanted than there are.
-    #[error("{wanted} hairs are more than the groom has: {long} with a length{}", without(*short))]
+    #[error("{wanted} hairs are more than the groom has: {long} with a length and a width{}", without(*short))]
     Hairs {
         /// The number wanted.
         wanted: usize,
-        /// Hairs with a length.
+        /// Hairs with a length and a width.
         long: usize,
-        /// Hairs without.
+        /// Hairs without one of these.
         short: usize,
     },
     /// There is not one hair to choose from.
@@ -166,7 +166,8 @@ mod tests {
         };
         let mut some = groom(9);
         some.hairs.push(&[Vec3::ZERO; 2], &[4e-5; 2]);
-        let expected = "10 hairs are more than the groom has: 9 with a length, 1 without";
+        let expected =
+            "10 hairs are more than the groom has: 9 with a length and a width, 1 without";
         assert_eq!(told(&some, 10), expected);
         assert!(some.fitted(Fit { hairs: Some(9), ..Fit::default() }).is_ok());
         assert_eq!(told(&Groom::default(), 1), "the groom has no hairs to choose from");

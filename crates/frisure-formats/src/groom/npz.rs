@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read, Write};
 
 use frisure_look::Melanin;
-use frisure_strands::{Attribute, Domain, Strands};
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, ZipArchive};
 
@@ -242,7 +242,7 @@ fn arrays(bytes: &[u8]) -> Result<BTreeMap<String, Array>, String> {
         let file = zip.by_index(i).map_err(described)?;
         let name = file.name().map_err(described)?;
         let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else { continue };
-        let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_';
+        let plain = |b: u8| b.is_ascii_alphanumeric() || b"_.:-".contains(&b);
         if name.is_empty() || name.len() > 64 || !name.bytes().all(plain) {
             continue;
         }
@@ -280,7 +280,7 @@ fn curves(mut arrays: BTreeMap<String, Array>, frame: Frame) -> Result<Curves, S
     }
     for (name, array) in arrays {
         let name = name.strip_prefix(ATTRIBUTE).map_or(name.clone(), str::to_owned);
-        curves.attributes.extend(attribute(name, array, curves.counts.len(), total, frame));
+        curves.attributes.extend(attribute(name, array, curves.counts.len(), total, frame)?);
     }
     Ok(curves)
 }
@@ -308,9 +308,9 @@ fn uneven(arrays: &mut BTreeMap<String, Array>) -> Result<Rows, String> {
     let (&[total, 3], Some(points)) = (&points.shape[..], triples(&points)) else {
         return Err(format!("`points` are {:?}, and should be real numbers, N × 3", points.shape));
     };
-    let offsets = arrays.remove(OFFSETS).and_then(|a| a.whole(|x| x));
+    let offsets = arrays.remove(OFFSETS).and_then(|a| a.whole());
     let offsets = offsets.ok_or("it has `points`, but no whole `offsets`")?;
-    if offsets.first() != Some(&0) || offsets.last() != Some(&(total as i64)) {
+    if offsets.first() != Some(&0) || offsets.last() != Some(&(total as i128)) {
         return Err(format!("`offsets` do not go from 0 to {total}"));
     }
     let counts = offsets.windows(2).enumerate().map(|(i, w)| {
@@ -327,17 +327,43 @@ fn attribute(
     strands: usize,
     points: usize,
     frame: Frame,
-) -> Option<Attribute> {
-    let (domain, extent) = meaning(&name, &array.shape, strands, points)?;
-    // Numbers below 0 wrap round, as -1 is written for nothing.
-    let values = match array.whole(|x| x as u32) {
-        Some(whole) => names::whole_values(whole, extent)?,
-        None => names::real_values(array.real()?, extent)?,
+) -> Result<Option<Attribute>, String> {
+    let Some((domain, extent)) = meaning(&name, &array.shape, strands, points) else {
+        return Ok(None);
     };
+    let values = match array.whole() {
+        Some(whole) => whole_values(&name, &whole, extent)?,
+        None => array.real().and_then(|real| names::real_values(real, extent)),
+    };
+    let Some(values) = values else { return Ok(None) };
     let mut attribute = Attribute { name, domain, values };
     names::turn_directions(&mut attribute, |d| frame.direction_from_file(d));
-    Some(attribute)
+    Ok(Some(attribute))
 }
+
+/// Whole numbers as an attribute has them: of 32 bits without a sign, where -1 is the largest, as it is written for nothing; other numbers below
+/// 0 as real ones, if single precision has them all.
+fn whole_values(
+    name: &str,
+    whole: &[i128],
+    extent: usize,
+) -> Result<Option<AttributeValues>, String> {
+    if whole.iter().all(|x| (-1..=i128::from(u32::MAX)).contains(x)) {
+        return Ok(names::whole_values(whole.iter().map(|&x| x as u32).collect(), extent));
+    }
+    match whole.iter().position(|x| x.abs() > MOST_REAL) {
+        None => Ok(names::real_values(whole.iter().map(|&x| x as f32).collect(), extent)),
+        Some(at) => Err(format!(
+            "`{name}` has {} in row {}, and whole numbers of an attribute are from -1 to {}, or within {MOST_REAL} of 0",
+            whole[at],
+            at / extent,
+            u32::MAX
+        )),
+    }
+}
+
+/// Up to here every whole number is one of single precision.
+const MOST_REAL: i128 = 1 << 24;
 
 /// The domain of an array, and how many numbers make one value.
 fn meaning(name: &str, shape: &[usize], strands: usize, points: usize) -> Option<(Domain, usize)> {
@@ -365,5 +391,44 @@ fn meaning(name: &str, shape: &[usize], strands: usize, points: usize) -> Option
         of_strands().or_else(of_points)
     } else {
         of_points().or_else(of_strands)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_whole(name: &str, numbers: &[i64]) -> Vec<u8> {
+        let mut out = Vec::new();
+        let mut zip = ZipWriter::new_stream(&mut out as &mut dyn Write);
+        let rows = numbers.len();
+        array(&mut zip, POSITIONS, "<f4", &[rows, 2, 3], 24 * rows, |out| {
+            (0..6 * rows).for_each(|i| names::push(out, [0.01 * i as f32]));
+        })
+        .unwrap();
+        array(&mut zip, name, "<i8", &[rows], 8 * rows, |out| {
+            numbers.iter().for_each(|x| out.extend(x.to_le_bytes()));
+        })
+        .unwrap();
+        zip.finish().unwrap();
+        out
+    }
+
+    #[test]
+    fn whole_numbers_are_read_as_they_are_or_refused() {
+        let read =
+            |numbers: &[i64]| decode(&with_whole("My.attr-2", numbers), FrameChoice::default());
+        let values = |numbers: &[i64]| {
+            let groom = read(numbers).unwrap();
+            groom.hairs.attribute("My.attr-2").unwrap().values.clone()
+        };
+        assert_eq!(
+            values(&[-1, 0, 4_294_967_295]),
+            AttributeValues::U32(vec![u32::MAX, 0, u32::MAX])
+        );
+        assert_eq!(values(&[-5, 300]), AttributeValues::F32(vec![-5.0, 300.0]));
+        let error = read(&[7, 4_294_967_297]).unwrap_err();
+        assert!(error.contains("`My.attr-2` has 4294967297 in row 1"), "{error}");
+        assert!(read(&[-16_777_217]).is_err());
     }
 }

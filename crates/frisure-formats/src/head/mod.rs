@@ -137,6 +137,10 @@ fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
         let file = path.parent().unwrap_or(Path::new("")).join(name);
         files.read_bytes(&file, MAX_SIZE, "a buffer").map_err(|e| e.to_string())
     };
+    if bytes.starts_with(b"PK") && has_arrays(&bytes) {
+        let problem = "it has arrays of NumPy, as a groom has, and no mesh".into();
+        return Err(HeadFileError::Format { path: path.into(), expected: ANY, problem });
+    }
     let format = FORMATS.iter().find(|format| (format.begins)(&bytes)).copied();
     let format = format.unwrap_or(&obj::FORMAT);
     let named =
@@ -157,6 +161,13 @@ fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
 
 /// What a file of a head is expected to be.
 const ANY: &str = "a mesh that is read (OBJ, USD, glTF or PLY)";
+
+/// Whether the first file of a zip is an array of `NumPy`: its name follows a header of 30 bytes.
+fn has_arrays(zip: &[u8]) -> bool {
+    let Some(&length) = zip.get(26..28).and_then(|b| b.first_chunk::<2>()) else { return false };
+    let name = zip.get(30..).and_then(|rest| rest.get(..u16::from_le_bytes(length).into()));
+    name.is_some_and(|name| name.ends_with(b".npy"))
+}
 
 /// Whether bytes are text with a vertex of OBJ, whatever the name of the file.
 fn is_obj(bytes: &[u8]) -> bool {

@@ -99,16 +99,17 @@ impl Array {
         })
     }
 
-    /// Its numbers, where they are whole ones, as something else.
-    pub(super) fn whole<T>(&self, to: impl Fn(i64) -> T) -> Option<Vec<T>> {
+    /// Its numbers, where they are whole ones.
+    pub(super) fn whole(&self) -> Option<Vec<i128>> {
         Some(match (self.kind.letter, self.kind.size) {
-            ('i', 1) => self.words().map(|&[b]| to(i64::from(b as i8))).collect(),
-            ('u' | 'b', 1) => self.words().map(|&[b]| to(i64::from(b))).collect(),
-            ('i', 2) => self.words().map(|w| to(i64::from(i16::from_le_bytes(*w)))).collect(),
-            ('u', 2) => self.words().map(|w| to(i64::from(u16::from_le_bytes(*w)))).collect(),
-            ('i', 4) => self.words().map(|w| to(i64::from(i32::from_le_bytes(*w)))).collect(),
-            ('u', 4) => self.words().map(|w| to(i64::from(u32::from_le_bytes(*w)))).collect(),
-            ('i' | 'u', 8) => self.words().map(|w| to(i64::from_le_bytes(*w))).collect(),
+            ('i', 1) => self.words().map(|&[b]| (b as i8).into()).collect(),
+            ('u' | 'b', 1) => self.words().map(|&[b]| b.into()).collect(),
+            ('i', 2) => self.words().map(|w| i16::from_le_bytes(*w).into()).collect(),
+            ('u', 2) => self.words().map(|w| u16::from_le_bytes(*w).into()).collect(),
+            ('i', 4) => self.words().map(|w| i32::from_le_bytes(*w).into()).collect(),
+            ('u', 4) => self.words().map(|w| u32::from_le_bytes(*w).into()).collect(),
+            ('i', 8) => self.words().map(|w| i64::from_le_bytes(*w).into()).collect(),
+            ('u', 8) => self.words().map(|w| u64::from_le_bytes(*w).into()).collect(),
             _ => return None,
         })
     }
