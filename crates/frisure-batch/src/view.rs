@@ -38,6 +38,16 @@ pub(crate) fn views(
     parquet::encode_views(index, views, &stored).map_err(|problem| Error::invalid(problem, ""))
 }
 
+/// A share of a pixel as a byte.
+fn level(share: f32) -> u8 {
+    (share * 255.0).round() as u8
+}
+
+/// The share of the body in a pixel, as a byte: with that of the hair it is at most 255, however both are rounded.
+fn body(pixel: &MappedPixel) -> u8 {
+    level(pixel.hair + pixel.body) - level(pixel.hair)
+}
+
 /// The bytes of an output: PNG, or numbers in little-endian order, row by row from the top left.
 fn encoded(
     output: ViewOutput,
@@ -50,8 +60,8 @@ fn encoded(
         let (width, height) = (views.width as u32, views.height as u32);
         png::encode_channels(width, height, channels, bytes).map_err(|e| Error::failed(&e, ""))
     };
-    let cover = |of: fn(&MappedPixel) -> f32| {
-        let bytes: Vec<u8> = view.pixels.iter().map(|p| (of(p) * 255.0).round() as u8).collect();
+    let cover = |of: fn(&MappedPixel) -> u8| {
+        let bytes: Vec<u8> = view.pixels.iter().map(of).collect();
         png(1, &bytes)
     };
     let strand = |of: &dyn Fn(u32) -> Option<u32>| {
@@ -68,8 +78,8 @@ fn encoded(
             png(3, &opaque)?
         }
         ViewOutput::Color => png(4, &view.color)?,
-        ViewOutput::Mask => cover(|p| p.hair)?,
-        ViewOutput::Body => cover(|p| p.body)?,
+        ViewOutput::Mask => cover(|p| level(p.hair))?,
+        ViewOutput::Body => cover(body)?,
         ViewOutput::Depth => view.pixels.iter().flat_map(|p| p.depth.to_le_bytes()).collect(),
         ViewOutput::Direction => {
             view.pixels.iter().flat_map(|p| halves(p.strand.map(|h| h.direction))).collect()

@@ -168,6 +168,7 @@ fn rows_of_a_table_stay_together() {
         ("\"d\", unit = \"um\"", "\"d\"", "people.csv:2: `d` is 70: a length needs a unit"),
         ("\"um\"", "\"GPa\"", "`GPa` is not a unit of a length"),
         ("\"length\"", "\"length\", unit = \"m\"", "it must be between 1 mm and 3 m"),
+        ("\"length\"", "\"length\", unit = \"m\"", "people.csv:2: `length (cm)` is 10,5"),
         ("\"d\"", "\"dd\"", "has no column `dd`"),
         ("people.csv\", column = \"len", "people.txt\", column = \"len", "there is no file"),
         ("\"type\"", "\"id\"", "it must be one of"),

@@ -78,13 +78,8 @@ impl Sheet {
         &mut self,
         source: &Source,
     ) -> Result<Vec<(String, Vec<Written>)>, SceneError> {
-        let is_there = |cell: &str| {
-            !matches!(cell.to_ascii_lowercase().as_str(), "" | "-" | "na" | "n/a" | "nan" | "none")
-        };
-        let counts =
-            |row: &&Row| self.columns.iter().all(|(place, _)| is_there(&row.cells[*place]));
-        let rows: Vec<&Row> = self.table.rows.iter().filter(counts).collect();
-        self.rows = rows.len();
+        self.rows = self.counted().count();
+        let rows: Vec<&Row> = self.counted().collect();
         if rows.is_empty() {
             let (_, column) = &self.columns[0];
             let problem = format!("no row of `{}` has all of the columns that are used", self.name);
@@ -97,6 +92,23 @@ impl Sheet {
             cells.map(|cells| (column.key.clone(), cells))
         };
         self.columns.iter().map(cells).collect()
+    }
+
+    /// The rows in which nothing is missing that is used.
+    fn counted(&self) -> impl Iterator<Item = &Row> {
+        let is_there = |cell: &str| {
+            !matches!(cell.to_ascii_lowercase().as_str(), "" | "-" | "na" | "n/a" | "nan" | "none")
+        };
+        let counts =
+            move |row: &&Row| self.columns.iter().all(|(place, _)| is_there(&row.cells[*place]));
+        self.table.rows.iter().filter(counts)
+    }
+
+    /// Where a key has the value of a row that counts, and what is written there.
+    pub(super) fn place_of(&self, key: &str, row: usize) -> Option<String> {
+        let (place, _) = self.columns.iter().find(|(_, column)| column.key == key)?;
+        let row = self.counted().nth(row)?;
+        Some(format!("{} is {}", self.table.place(row, *place), row.cells[*place]))
     }
 
     fn cell(

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use frisure_files::head::ScalpSource;
 
 use super::heads::{Batch, SEED};
-use super::way::{self, Value, Written};
+use super::way::{self, Value, Way, Written};
 use crate::edit::EditError;
 use crate::error::{Diagnostic, SceneError};
 use crate::scene::{HeadSource, Scene};
@@ -117,7 +117,18 @@ fn error_in_batch(
         }
         error => Diagnostic::new(error.to_string()).key(key),
     };
+    let diagnostic = match written.and_then(|written| in_table(batch, key, written)) {
+        Some(cell) => diagnostic.hint(cell),
+        None => diagnostic,
+    };
     diagnostic.at(&batch.source, span)
+}
+
+/// The cell of a table that a value of a key comes from, if it does.
+fn in_table(batch: &Batch, key: &str, written: &Written) -> Option<String> {
+    let parameter = batch.parameters.iter().find(|parameter| parameter.key == key)?;
+    let Way::Column { sheet, cells } = &parameter.way else { return None };
+    batch.sheets[*sheet].place_of(key, cells.iter().position(|cell| cell == written)?)
 }
 
 /// The span of a value of a key in the batch, or of the key.
