@@ -1,10 +1,10 @@
 //! A groom of another program hangs as it was modelled, and is hair from then on.
 
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::{Dry, Operation, Wet};
+use frisure_hairstyle::styling::{Dry, Operation, Part, Wet};
 use frisure_hairstyle::{
-    Hairs, Hairstyle, HairstyleSpec, PredictOptions, StrandOptions, StyleOptions, adopt,
-    guide_strands, predict, preset, strands, style,
+    Guide, Hairs, Hairstyle, HairstyleSpec, Parting, PredictOptions, StrandOptions, StyleOptions,
+    adopt, guide_strands, predict, preset, strands, style,
 };
 use frisure_strands::Strands;
 
@@ -66,6 +66,33 @@ fn an_adopted_groom_is_wetted_cut_and_dried() {
     let strands = strands(&hairstyle, &head, StrandOptions::default(), &()).unwrap().strands;
     assert_eq!(strands.len(), hairstyle.drawn());
     assert!(strands.len() > 300);
+}
+
+/// A parting turns its roots; the fibres are those that were found.
+#[test]
+fn an_adopted_groom_keeps_its_fibres_when_it_is_parted() {
+    let head = Head::mannequin();
+    let (mut spec, groom) = modelled("caucasian-curly", &head);
+    // Of another type than the groom was made of.
+    spec.curl = preset("caucasian-straight").unwrap().spec().curl;
+    let (hairstyle, _) = adopt(&spec, &head, &groom, &Strands::new(), &()).unwrap();
+    let part = Operation::Part(Part { line: Parting::Straight { offset: 0.02 } });
+    let parted = style(&hairstyle, &head, &part, StyleOptions::default(), &()).unwrap();
+    for (before, after) in hairstyle.guides().iter().zip(parted.guides()) {
+        let (before, after) = (before.rod.spec(), after.rod.spec());
+        assert_eq!(before.section, after.section);
+        // Beyond the last piece of which the strain was found it may go on otherwise.
+        for share in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let s = share * before.length;
+            assert!((before.natural.at(s) - after.natural.at(s)).length() < 1e-9);
+        }
+        assert_eq!(before.length.to_bits(), after.length.to_bits());
+    }
+    let turned = hairstyle.guides().iter().zip(parted.guides()).filter(|(a, b)| {
+        let way = |guide: &Guide| guide.rod.root().frame().z_axis;
+        way(a).angle_between(way(b)) > 0.05
+    });
+    assert!(turned.count() > GUIDES / 4);
 }
 
 /// Hairs grow where the groom's grow, and nowhere else.

@@ -63,7 +63,7 @@ pub(crate) struct Pictured {
     #[arg(long, short, value_name = "PICTURE")]
     pub(crate) output: PathBuf,
 
-    /// Width and height (pixels), instead of the scene's: 67108864 pixels at most, as 8192x8192.
+    /// Width and height (pixels), instead of the scene's: at most 16384 each, and in a traced picture 67108864 pixels, as 8192x8192.
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<(usize, usize)>,
 

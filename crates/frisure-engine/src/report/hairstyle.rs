@@ -5,7 +5,7 @@ use frisure::hairstyle::{
     Body, Contact, DrawnHair, HairContact, Hairstyle, InteractionForm, JointCertificate,
     SettlingReport, Simulation, StrandCertificate, Volume, WetLockSizes, volume,
 };
-use frisure::rod::Energy;
+use frisure::rod::{Energy, Equilibrium};
 use frisure::strands::Strands;
 use serde::Serialize;
 
@@ -49,11 +49,14 @@ pub struct HairstyleReport {
     pub simulated: Option<SimulationReport>,
     /// Deepest that a drawn hair is inside the head (m), if it was measured.
     pub hair_penetration: Option<f64>,
+    /// How much shorter than they are guides are drawn by lines through as many points as hairs have; none if all are within a twentieth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coarse_lines: Option<CoarseLines>,
     /// Space that the drawn hairs take, if it was measured.
     pub volume: Option<VolumeReport>,
     /// Smallest and largest corner of the box around the hair (m); none without hairs.
     pub bounds: Option<[[f32; 3]; 2]>,
-    /// Mass of all hair that grows on the head (kg); water does not change it.
+    /// Mass of all hair that grows on the head, and of the water in it (kg).
     pub mass: f64,
     /// The steps in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -63,6 +66,42 @@ pub struct HairstyleReport {
 /// Depth in the head above which hair is inside it (m). Chosen: some hairs thick, as deep as contact that yields lets a
 /// guide sink.
 pub const DEEP: f64 = 5e-4;
+
+/// Hair that winds so tightly that the points of its lines do not follow it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CoarseLines {
+    /// Guides whose lines are too short by more than a twentieth.
+    pub guides: usize,
+    /// Length of the line that is shortest, over that of its guide.
+    pub shortest: f64,
+    /// Points with which all lines are within a twentieth.
+    pub points: usize,
+}
+
+impl CoarseLines {
+    /// Share of its length that a line may lack. Chosen: what is seen.
+    const LACKING: f64 = 0.05;
+    /// Most points of a line that are tried.
+    const MOST_POINTS: usize = 2000;
+
+    fn of(hairstyle: &Hairstyle) -> Option<Self> {
+        let drawn = |guide: &Equilibrium, points: usize| {
+            let line = guide.centre_line(points.max(2));
+            line.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() / guide.rod.length()
+        };
+        let points = hairstyle.spec().wisps.points;
+        let guides = hairstyle.equilibria();
+        let shares: Vec<f64> = guides.iter().map(|guide| drawn(guide, points)).collect();
+        let coarse = |share: f64| share < 1.0 - Self::LACKING;
+        let shortest = shares.iter().copied().fold(1.0, f64::min);
+        let worst = guides.iter().zip(&shares).min_by(|a, b| a.1.total_cmp(b.1))?.0;
+        let more = |points: &usize| Some((points + points / 2).min(Self::MOST_POINTS));
+        let enough = std::iter::successors(Some(points), more)
+            .find(|&points| points >= Self::MOST_POINTS || !coarse(drawn(worst, points)))?;
+        let count = shares.iter().filter(|share| coarse(**share)).count();
+        (count > 0).then_some(Self { guides: count, shortest, points: enough })
+    }
+}
 
 /// How guides came to rest.
 #[derive(Clone, Debug, Serialize)]
@@ -322,6 +361,7 @@ impl LoadedScene {
                 SimulationReport { hairs, stable: at_rest, elements, iterations, contact }
             }),
             hair_penetration: None,
+            coarse_lines: strands.and_then(|_| CoarseLines::of(&self.hairstyle)),
             volume: strands.map(|strands| {
                 let Volume { region, hair, cell } =
                     volume(strands, &self.head, self.hairstyle.grown());

@@ -4,7 +4,7 @@ mod hairstyle;
 mod step;
 
 pub use hairstyle::{
-    ContactReport, DEEP, EnergyReport, GuideReport, HairstyleReport, SimulationReport,
+    CoarseLines, ContactReport, DEEP, EnergyReport, GuideReport, HairstyleReport, SimulationReport,
     StrandContactReport, ThicknessReport, VolumeReport, WetLockReport, status,
 };
 pub use step::{CutReport, StepReport};

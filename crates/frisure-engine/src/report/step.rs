@@ -1,5 +1,7 @@
 //! The report of a step.
 
+use std::collections::BTreeMap;
+
 use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::styling::{Operation, WispState};
 use frisure::rod::Equilibrium;
@@ -20,7 +22,10 @@ pub struct StepReport {
     /// Of a clip: wisps that do not reach it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub short: Option<usize>,
-    /// Mass of all hair after it (kg).
+    /// Wisps that it takes out of what held them, by what that was: out of a tie, off a roller.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub taken_out: BTreeMap<&'static str, usize>,
+    /// Mass of all hair and the water in it after it (kg).
     pub mass: f64,
     /// How much more that is than before (kg).
     pub mass_change: f64,
@@ -55,6 +60,7 @@ impl StepReport {
             wisps: selected.iter().filter(|selected| **selected).count(),
             changed: changed(before, after),
             short: short_of(operation, after, selected),
+            taken_out: taken_out(operation, before, after),
             mass: after.mass(),
             mass_change: after.mass() - before.mass(),
             tips: [mean_tip(before, selected), mean_tip(after, selected)],
@@ -85,13 +91,40 @@ fn changed(before: &Hairstyle, after: &Hairstyle) -> usize {
         .count()
 }
 
+/// The wisps that an operation takes out of what held them, without being told to let go.
+fn taken_out(
+    operation: &Operation,
+    before: &Hairstyle,
+    after: &Hairstyle,
+) -> BTreeMap<&'static str, usize> {
+    let mut all = BTreeMap::new();
+    if matches!(operation, Operation::Release(_)) {
+        return all;
+    }
+    for (before, after) in before.wisps().iter().zip(after.wisps()) {
+        match before.held_by() {
+            // A comb that is passed on is the same comb.
+            Some(by) if by != "comb" && after.held_by() != Some(by) => {
+                *all.entry(by).or_default() += 1;
+            }
+            _ => {}
+        }
+    }
+    all
+}
+
 /// The number of wisps that a clip or a tie does not hold where it is: they are too short for it, or the head is in the way.
 fn short_of(operation: &Operation, after: &Hairstyle, selected: &[bool]) -> Option<usize> {
     if !matches!(operation, Operation::Clip(_) | Operation::Tie(_)) {
         return None;
     }
+    let tie = matches!(operation, Operation::Tie(_));
     let held = |(wisp, rest): (&WispState, &Equilibrium)| {
         let clipped = wisp.clipped();
+        // A tie holds no hair but what has reached it.
+        if tie {
+            return clipped.is_some();
+        }
         clipped.is_some_and(|(at, to)| rest.at(&rest.chain(), at).0.distance(to) <= AT_CLIP)
     };
     let wisps = after.wisps().iter().zip(after.equilibria()).zip(selected);

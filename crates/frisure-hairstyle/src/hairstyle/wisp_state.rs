@@ -70,6 +70,9 @@ impl Styling {
 pub(crate) struct Ends {
     /// Length (m) of the dry hair, infinite where it has never been cut.
     pub(crate) limits: Arc<[f32]>,
+    /// Whether that is the length of the hair itself, which was held straight when it was cut, rather than the length along its guides at which it
+    /// crossed a line.
+    pub(crate) straight: Arc<[bool]>,
     /// The wisp of each hair.
     pub(crate) wisps: Arc<[u32]>,
     /// How many cuts there have been.
@@ -214,6 +217,27 @@ impl WispState {
     #[must_use]
     pub fn is_held(&self) -> bool {
         self.grip.is_some()
+    }
+
+    /// What holds the wisp, such as `"tie"`; none if nothing does.
+    #[must_use]
+    pub fn held_by(&self) -> Option<&'static str> {
+        Some(match self.grip? {
+            Grip::Mould { mould, .. } => match mould {
+                Mould::Straight => "straightener",
+                Mould::Roller { .. } => "roller",
+                Mould::Twist { .. } => "twist",
+                Mould::Braid { .. } => "braid",
+            },
+            Grip::Clip { by, .. } => match by {
+                Fastener::Clip => "clip",
+                Fastener::Tie { .. } => "tie",
+                Fastener::Pin { .. } => "pin",
+            },
+            // The tail of a tie.
+            Grip::Braid { .. } => "tie",
+            Grip::Comb { .. } => "comb",
+        })
     }
 
     /// Which place of the wisp, 0 (root) to 1 (tip), a clip or a tie holds, and at which point (m).

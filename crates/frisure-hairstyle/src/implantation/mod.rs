@@ -219,7 +219,7 @@ pub(crate) fn out_of_face(marks: &Landmarks, place: DVec3, along: DVec3) -> f64 
 
 /// Standard deviation (m), along each axis, of the place from which a hair beside a parting is combed. Chosen by eye: the teeth of
 /// a comb are 1 to 2 mm apart.
-const STRAY: f64 = 0.8e-3;
+const STRAY: f64 = 1.0e-3;
 
 /// How far (m) a hair must be able to go straight before it meets skin again. Chosen by trial; not measured further.
 const CLEAR_PATH: f64 = 0.016;

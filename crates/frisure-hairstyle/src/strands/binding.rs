@@ -103,6 +103,8 @@ pub(super) struct StrandBinding<'a> {
     /// Its length (m) when it is dry, and whether it has been cut.
     pub(super) dry: f64,
     pub(super) cut: bool,
+    /// Most length (m) of its line, if it was cut to a length; else infinite.
+    pub(super) most: f64,
     /// Factor on its diameter.
     pub(super) thickness: f64,
     /// Factor on how far it is from its guides, for hair that would be stretched by going round them

@@ -49,6 +49,9 @@ const STRETCHED: f64 = 1.12;
 /// Factors by which a hair that would be stretched more comes nearer to its guides, tried in order. Chosen by trial; not measured further.
 const NARROWER: [f64; 4] = [0.6, 0.3, 0.1, 0.0];
 
+/// How much longer hair may be drawn than it was cut, as a factor. Chosen: less than is seen.
+const CUT_SPARE: f64 = 1.005;
+
 /// How often a drawn hair that is still too long is shortened at most. Chosen.
 const SHORTENED: usize = 4;
 
@@ -76,6 +79,15 @@ fn length(points: &[DVec3]) -> f64 {
 impl Population<'_> {
     /// The hair rooted somewhere.
     pub(super) fn hair(&self, root: &Root, index: usize) -> Hair {
+        let (binding, points) = self.drawn(root, index);
+        let points = points.into_iter().map(DVec3::as_vec3).collect();
+        let StrandBinding { thickness, cut, .. } = binding;
+        let thickness = thickness * self.own_diameter(binding.main(), index);
+        Hair { guide: binding.main() as u32, thickness, cut, points }
+    }
+
+    /// How the hair rooted somewhere is bound, and its points (m).
+    fn drawn(&self, root: &Root, index: usize) -> (StrandBinding<'_>, Vec<DVec3>) {
         let mut binding = self.bind(root, index);
         let mut points = self.points(&binding);
         let most = STRETCHED * binding.end * binding.length;
@@ -95,6 +107,15 @@ impl Population<'_> {
             binding.end *= most / long;
             points = self.points(&binding);
         }
+        // What was cut to a length is no longer than that, however much it goes round its guides.
+        for _ in 0..SHORTENED {
+            let long = length(&points);
+            if long <= CUT_SPARE * binding.most {
+                break;
+            }
+            binding.end *= binding.most / long;
+            points = self.points(&binding);
+        }
         // Neither does a line between two of its points go through one.
         for _ in 0..SHORTENED {
             let Some(cut) = self.skin.lift_lines(&mut points) else { break };
@@ -104,10 +125,7 @@ impl Population<'_> {
             binding.end *= (cut as f64 / (points.len() - 1) as f64).max(0.1);
             points = self.points(&binding);
         }
-        let points = points.into_iter().map(DVec3::as_vec3).collect();
-        let StrandBinding { thickness, cut, .. } = binding;
-        let thickness = thickness * self.own_diameter(binding.main(), index);
-        Hair { guide: binding.main() as u32, thickness, cut, points }
+        (binding, points)
     }
 
     fn points(&self, binding: &StrandBinding<'_>) -> Vec<DVec3> {
@@ -263,7 +281,8 @@ impl Population<'_> {
             let uncut = mean(&|g| self.states[g].uncut);
             let planned = mean(&|g| self.planned[g].rod.length());
             let end = self.wisps[followed[0].0].end();
-            let samples = 2 * self.spec.wisps.points.max(16);
+            // As close as if it ended with its guides.
+            let samples = (end * (2 * self.spec.wisps.points.max(16)) as f64) as usize;
             let point = |k: usize| {
                 let x = k as f64 / (samples - 1) as f64 * end;
                 let along = x * length;

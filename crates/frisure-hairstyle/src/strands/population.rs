@@ -23,7 +23,7 @@ use crate::parallel;
 use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
 use crate::wisps::BoundStrands;
-use crate::wisps::Wisp;
+use crate::wisps::{BEYOND, Wisp};
 
 /// How many neighbouring guides a hair can follow. Chosen by trial; not measured further.
 const FOLLOWED: usize = 5;
@@ -60,9 +60,6 @@ const CUT: f64 = 0.97;
 /// Chosen by trial; not measured further.
 const AGAINST: f64 = 8.0;
 
-/// How far (m) beyond the end of its guide a hair that was cut can end. Chosen by trial; not measured further.
-const BEYOND: f64 = 0.05;
-
 /// Everything that drawing a hair needs.
 pub(crate) struct Population<'a> {
     pub(super) spec: &'a HairstyleSpec,
@@ -76,6 +73,8 @@ pub(crate) struct Population<'a> {
     pub(super) states: &'a [WispState],
     /// Length (m) at which each hair has been cut.
     limits: Option<&'a [f32]>,
+    /// Whether that is its own length, rather than that along its guides.
+    straight: Option<&'a [bool]>,
     pub(super) wisps: Vec<Wisp>,
     /// Where (m) each wisp is at [`MARKS`].
     marks: Vec<[DVec3; 4]>,
@@ -139,12 +138,11 @@ impl<'a> Population<'a> {
         let spacing = (hairstyle.placement.area() / guides.len() as f64).sqrt();
         let samples = (2 * spec.wisps.points).max(64);
         let limits = styling.limits();
-        let beyond = if limits.is_some() { BEYOND } else { 0.0 };
         let roots: Vec<DVec3> = guides.iter().map(|g| g.root.position).collect();
         // A disc of the same area.
         let patch = spacing / std::f64::consts::PI.sqrt();
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
-        let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, beyond);
+        let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, BEYOND);
         let wisps = parallel::map_slice(&rest.guides, wisp);
         let bound = hairstyle.placement.bound(spec, head);
         let planned = styling.planned.iter().map(|g| g.rod.length()).sum::<f64>();
@@ -171,6 +169,7 @@ impl<'a> Population<'a> {
             guides,
             states: &styling.wisps,
             limits,
+            straight: styling.ends.as_ref().map(|ends| &*ends.straight),
             marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.centre(x).0)).collect(),
             wisps,
             grid: Grid::new(&roots, spacing),
@@ -237,6 +236,11 @@ impl<'a> Population<'a> {
             end: (dry * stretch / length).min(known),
             dry,
             cut,
+            most: if cut && self.straight.is_some_and(|straight| straight[index]) {
+                dry * stretch
+            } else {
+                f64::INFINITY
+            },
             thickness,
             narrow: 1.0,
             own,

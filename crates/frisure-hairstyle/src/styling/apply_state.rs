@@ -37,6 +37,13 @@ const CLIP: (f64, f64) = (20.0, 0.012);
 /// Shortest hair (m) that a clip bends; it pulls at stubble no harder. Chosen by trial; not measured further.
 const CLIPPABLE: f64 = 0.1;
 
+/// Acceleration of gravity on Earth (m/s²), by which hands are as strong as they are.
+const EARTH: f64 = 9.81;
+
+/// Share of EI κ² (κ the natural curvature) with which [`CLIPPED`] times as much draws a curl straight: three times EI κ², under which its
+/// ends turn by 0.6 rad. Chosen.
+const UNCURLING: f64 = 0.1;
+
 /// Most that a clip pulls, as a multiple of what it takes to bend the hair or to carry it. Chosen by trial; not measured
 /// further.
 const CLIPPED: f64 = 30.0;
@@ -126,6 +133,15 @@ fn effort(rod: &Rod, shortest: f64) -> f64 {
     rod.weight().max(bending)
 }
 
+/// The same of a hand that gathers hair into a clip: it also draws curls straight, and carries hair as on Earth wherever the head is.
+fn hand_effort(rod: &Rod) -> f64 {
+    // Under a force F a rod of the curvature κ is straight but for a length √(EI/F) at its ends, over which it turns by κ √(EI/F).
+    let bend = rod.natural().mean(0.0, rod.length()).truncate().length_squared();
+    let straight = UNCURLING * rod.stiffness().truncate().min_element() * bend / rod.length();
+    let weight = rod.mass() / rod.length() * EARTH;
+    effort(rod, CLIPPABLE).max(weight).max(straight)
+}
+
 /// What pulls at a rod that is gripped.
 pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
     match grip? {
@@ -151,14 +167,14 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
             // The whole piece stays on the hair, however near to an end it is held.
             let from = (at * rod.length() - before).clamp(0.0, rod.length() - long);
             // A force per length of the piece that adds up to one on the whole hair.
-            let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / long;
+            let most = CLIPPED * hand_effort(rod) * rod.length() / long;
             Some(Pull::Clip { piece: [from, from + long], point, way, stiffness: CLIP.0, most })
         }
         Grip::Braid { at, path } => {
             let from = (at * rod.length()).min(rod.length());
             let piece = [from, (from + path.reach()).min(rod.length())];
             // As hard on each length as a clip pulls at the piece that it holds.
-            let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / CLIP.1;
+            let most = CLIPPED * hand_effort(rod) * rod.length() / CLIP.1;
             Some(Pull::Braid { path, piece, stiffness: CLIP.0, most })
         }
         Grip::Mould { tension, .. } => {

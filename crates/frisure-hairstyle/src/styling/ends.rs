@@ -9,12 +9,14 @@ use crate::strands::{Population, roots};
 
 impl Ends {
     /// Cuts hairs of the chosen wisps, of all hairs every `stride`-th: `left` gives how much (m, dry) is left
-    /// of a hair at least, by its root, its index and its wisp.
+    /// of a hair at least, by its root, its index and its wisp; of hair that is held `straight` that is its own length, else the length along its
+    /// guides.
     pub(super) fn cut(
         hairstyle: &Hairstyle,
         head: &Head,
         stride: usize,
         chosen: &[bool],
+        straight: bool,
         left: impl Fn(&Population<'_>, &Root, usize, usize) -> f64 + Sync,
     ) -> Self {
         let population = Population::new(hairstyle, head);
@@ -32,12 +34,16 @@ impl Ends {
         let count = hairstyle.drawn();
         let mut limits = before.map_or(vec![f32::INFINITY; count], |ends| ends.limits.to_vec());
         let mut wisps = before.map_or(vec![0; count], |ends| ends.wisps.to_vec());
+        let mut held = before.map_or(vec![false; count], |ends| ends.straight.to_vec());
         for (index, wisp, left) in cut {
-            (limits[index], wisps[index]) = (limits[index].min(left), wisp);
+            wisps[index] = wisp;
+            if left < limits[index] {
+                (limits[index], held[index]) = (left, straight);
+            }
         }
         let cuts = before.map_or(0, |ends| ends.cuts) + 1;
         let thinned = before.and_then(|ends| ends.thinned.clone());
-        Self { limits: limits.into(), wisps: wisps.into(), cuts, thinned }
+        Self { limits: limits.into(), straight: held.into(), wisps: wisps.into(), cuts, thinned }
     }
 
     /// Notes that those of every `stride`-th hair that are shorter than `before` were cut by thinning scissors.
@@ -60,7 +66,8 @@ impl Ends {
     pub(super) fn before(hairstyle: &Hairstyle, head: &Head, stride: usize) -> Self {
         let uncut = || {
             let none = vec![false; hairstyle.guides.len()];
-            let uncut = Self::cut(hairstyle, head, stride, &none, |_, _, _, _| f64::INFINITY);
+            let uncut =
+                Self::cut(hairstyle, head, stride, &none, false, |_, _, _, _| f64::INFINITY);
             Self { cuts: 0, ..uncut }
         };
         hairstyle.styling.ends.clone().unwrap_or_else(uncut)
@@ -82,7 +89,7 @@ impl Ends {
             .thinned
             .as_ref()
             .map(|known| Thinned { limits: all(&known.limits), every: known.every });
-        Self { limits: all(&self.limits), wisps: self.wisps.clone(), cuts: self.cuts, thinned }
+        Self { limits: all(&self.limits), thinned, ..self.clone() }
     }
 }
 

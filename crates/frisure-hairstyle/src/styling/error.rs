@@ -38,7 +38,7 @@ pub enum StyleError {
     /// No selected wisp hangs where it could be tucked.
     #[error("none of the selected wisps is rooted and hangs in front of an ear")]
     NothingBeforeEar,
-    /// No selected wisp is long enough to be tied or tucked there.
+    /// No selected wisp is long enough to be tied, clipped or tucked there.
     #[error(
         "no hair is gathered: the wisp that comes nearest needs {:.1} cm to reach it, and has {:.1} cm",
         100.0 * needed, 100.0 * length

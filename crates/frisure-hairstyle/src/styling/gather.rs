@@ -77,6 +77,18 @@ impl Bundle {
 }
 
 impl Styling {
+    /// The same with what holds some wisps taken off.
+    fn loosened(&self, wisps: &[usize]) -> Self {
+        let mut styling = self.clone();
+        for &i in wisps {
+            let wisp = &mut styling.wisps[i];
+            if wisp.grip.take().is_some() {
+                wisp.moved += 1;
+            }
+        }
+        styling
+    }
+
     /// The same with a place of some wisps held by a fastener: their indices, the points (m), and the places along them.
     fn held_at(&self, by: Fastener, places: impl Iterator<Item = (usize, DVec3, f64)>) -> Self {
         let mut styling = self.clone();
@@ -89,7 +101,8 @@ impl Styling {
     }
 }
 
-/// Gathers the chosen wisps that are long enough, and holds them there. What catches on an ear or the neck on its way stays out.
+/// Gathers the chosen wisps that are long enough, and holds them there. What catches on an ear or the neck on its way stays out, and hangs
+/// free: whatever held it before is taken off.
 ///
 /// # Errors
 /// [`StyleError::NothingGathered`], if no wisp is long enough, and [`StyleError::NothingReached`], if each catches on its way.
@@ -104,6 +117,7 @@ pub(super) fn gathered(
     let area = |i: usize| hairs * before.guides[i].rod.spec().section.area() / PACKING;
     let (middle, _) = (to.bundle)(0.0);
     let chosen: Vec<usize> = (0..chosen.len()).filter(|&i| chosen[i]).collect();
+    let loose = before.styling.loosened(&chosen);
     let mut ways: Vec<(usize, f64)> = parallel::map_slice(&chosen, |&i| {
         (i, taut_length(head, before.guides[i].root.position, middle, LYING))
     });
@@ -136,9 +150,9 @@ pub(super) fn gathered(
     let alone = Effort { sweeps: 0, ..Effort::FULL };
     let hand = Act { draft: Some(DraftRest { effort: alone, stride: 1, like: None }), ..*act };
     let up = places.iter().map(|&(i, _, at)| (i, lifted, at));
-    let in_hand = hand.with(before.styling.held_at(by, up))?;
+    let in_hand = hand.with(loose.held_at(by, up))?;
     // 4. Hair that catches on its way stays out, rather than being held half-way.
-    let tried = hand.on(&in_hand).with(before.styling.held_at(by, places.iter().copied()))?;
+    let tried = hand.on(&in_hand).with(loose.held_at(by, places.iter().copied()))?;
     let reached = |&(i, to, at): &(usize, DVec3, f64)| {
         let rest = &tried.rest.guides[i];
         rest.at(&rest.chain(), at).0.distance(to) <= REACHED
@@ -158,7 +172,7 @@ pub(super) fn gathered(
     }
     let mut styling = held.styling.held_at(by, places.into_iter());
     for (i, ..) in caught {
-        styling.wisps[i].clone_from(&before.styling.wisps[i]);
+        styling.wisps[i].clone_from(&loose.wisps[i]);
     }
     let last = if to.in_hand { &hand } else { act };
     last.on(&held).with(styling)

@@ -46,8 +46,12 @@ pub(crate) struct AxisPoint {
 /// Longest window (m) for the axis of hair without a curl. Chosen by trial; not measured further.
 const STRAIGHT_WINDOW: f64 = 0.01;
 
+/// How far (m) beyond the end of its guide a hair can end: one whose curl drifts, or that was cut. All wisps of a head are known as far, whether
+/// hair was cut or not: what is known beyond its tip turns the axis there. Chosen by trial; not measured further.
+pub(crate) const BEYOND: f64 = 0.05;
+
 impl Wisp {
-    /// Samples a guide at `samples` points, and goes on `beyond` the tip (m) for hairs that end a little farther out.
+    /// Samples a guide at `samples` points, and goes on `beyond` the tip (m), by its own length at most, for hairs that end a little farther out.
     pub(crate) fn new(guide: &Equilibrium, samples: usize, beyond: f64) -> Self {
         let line = guide.sample(samples);
         let length = guide.rod.length();
@@ -60,7 +64,7 @@ impl Wisp {
         let half = (0.5 * window / spacing).max(1.0);
         // The mean over a turn needs half a turn more at both ends.
         let more = if winds > 0.0 { half.ceil() as usize + 1 } else { 0 };
-        let beyond = ((beyond / spacing) as usize).min(MOST_BEYOND);
+        let beyond = ((beyond.min(length) / spacing) as usize).min(MOST_BEYOND);
         let after = continued(guide, line[samples - 1], length, spacing, beyond + more);
         let before = continued(guide, line[0], 0.0, -spacing, more);
         let directors = line.iter().map(|(_, frame)| frame.x_axis.as_vec3()).collect();

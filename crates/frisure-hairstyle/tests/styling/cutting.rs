@@ -268,3 +268,37 @@ fn what_thinning_cuts_off_has_a_mass() {
     let lost = |long: &Hairstyle, short: &Hairstyle| long.mass() - short.mass();
     assert!((lost(&uncut, &grown) / lost(&before, &thinned) - 1.0).abs() < 1e-6);
 }
+
+#[test]
+fn a_cut_changes_no_hair_that_it_does_not_reach() {
+    for name in ["caucasian-straight", "caucasian-curly"] {
+        let before = hairstyle(name, 30);
+        let line = CutLine::Length(2.0);
+        let cut = done(&before, &Operation::Cut(Cut { line, ..Cut::default() }));
+        assert!(same(&before, &cut), "{name}");
+        // Of a part of the hair, the others keep their lengths: what follows guides on both sides is drawn at most an eighth longer than it is.
+        let nape = Selection::Place(Place::Region(Region::Nape));
+        let line = CutLine::Length(0.05);
+        let cut = done(&before, &Operation::Cut(Cut { selection: nape, line, ..Cut::default() }));
+        let lengths = drawn_lengths(&before).into_iter().zip(drawn_lengths(&cut));
+        assert!(lengths.clone().any(|(before, after)| after < before - 0.01), "{name}");
+        for (before, after) in lengths {
+            assert!(after < 1.13 * before + 1e-3, "{name}: {before} {after}");
+        }
+    }
+}
+
+#[test]
+fn drawn_hairs_cut_to_a_length_are_no_longer_than_that() {
+    for name in ["caucasian-straight", "caucasian-curly", "african-coily"] {
+        let before = hairstyle(name, 40);
+        let line = CutLine::Length(0.1);
+        let cut = done(&before, &Operation::Cut(Cut { line, ..Cut::default() }));
+        let lengths = drawn_lengths(&cut);
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        // Lines between the points of a hair, and what skin moves it aside.
+        assert!(longest < 0.103, "{name}: {longest}");
+        let cut = lengths.iter().filter(|length| **length > 0.095).count();
+        assert!(2 * cut > lengths.len(), "{name}: {cut} of {}", lengths.len());
+    }
+}

@@ -6,8 +6,8 @@ use frisure_hairstyle::styling::{
     Tuck, WispState,
 };
 use frisure_hairstyle::{
-    HairContact, Hairstyle, Parting, Place, Pose, PredictOptions, StyleOptions, predict, selected,
-    settling_report, style,
+    HairContact, Hairstyle, HairstyleSpec, Parting, Place, Pose, PredictOptions, StyleOptions,
+    predict, selected, settling_report, style,
 };
 use frisure_rod::Equilibrium;
 use glam::DVec3;
@@ -302,4 +302,51 @@ fn wisps_without_thickness_are_those_of_a_thickness_of_nothing() {
     let tips =
         |hair: &Hairstyle| hair.equilibria().iter().map(Equilibrium::tip).collect::<Vec<_>>();
     assert_eq!(tips(&none), tips(&hardly));
+}
+
+#[test]
+fn a_second_tie_takes_hair_out_of_the_first_whether_it_reaches_or_not() {
+    let tie = |to: TiePlace| Operation::Tie(Tie { to, ..Tie::default() });
+    let mut spec = spec("caucasian-straight", 40, HairContact::Layers);
+    spec.length.mean = 0.25;
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+    let high = done(&before, &tie(TiePlace::High));
+    let low = done(&high, &tie(TiePlace::Low));
+    let once = done(&before, &tie(TiePlace::Low));
+    let held = |h: &Hairstyle| -> Vec<bool> { h.wisps().iter().map(WispState::is_held).collect() };
+    let differ = held(&low).iter().zip(held(&once)).filter(|(a, b)| **a != *b).count();
+    assert!(differ <= 2, "{differ}");
+    // Nothing is left at the first place.
+    let old: Vec<DVec3> = high.wisps().iter().filter_map(|w| Some(w.clipped()?.1)).collect();
+    for wisp in low.wisps() {
+        assert!(wisp.clipped().is_none_or(|(_, at)| old.iter().all(|p| p.distance(at) > 0.03)));
+    }
+}
+
+#[test]
+fn a_tie_draws_coils_straight_and_holds_without_weight() {
+    let tie = |spec: &HairstyleSpec| {
+        let before = predict(spec, &HEAD, PredictOptions::default(), &()).unwrap();
+        let tied = done(&before, &Operation::Tie(Tie { to: TiePlace::High, ..Tie::default() }));
+        tied.wisps().iter().filter(|wisp| wisp.is_held()).count()
+    };
+    let mut coily = spec("african-coily", 20, HairContact::Layers);
+    coily.length.mean = 0.25;
+    // The head is in the way of a few.
+    assert!(tie(&coily) >= 16, "{}", tie(&coily));
+    let mut weightless = spec("caucasian-straight", 20, HairContact::Layers);
+    (weightless.length.mean, weightless.gravity) = (0.25, 0.0);
+    assert!(tie(&weightless) >= 16, "{}", tie(&weightless));
+}
+
+#[test]
+fn a_clip_that_no_hair_can_reach_is_refused() {
+    let before = hairstyle("straight", 10);
+    let clip = |to: DVec3| Operation::Clip(Clip { to, at: 1.0, ..Clip::default() });
+    let refused = |to: DVec3| {
+        style(&before, &HEAD, &clip(to), StyleOptions::default(), &()).map(|_| ()).unwrap_err()
+    };
+    let error = refused(DVec3::Z * 2.0);
+    let StyleError::NothingGathered { needed, length } = error else { panic!("{error}") };
+    assert!(needed > 1.5 && length < 0.6, "{needed} {length}");
 }

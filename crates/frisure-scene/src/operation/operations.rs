@@ -84,6 +84,8 @@ operations! {
                      `gathered`",
                 )),
             },
+            // Only a level is raised: `unless` of `raise` sees the lines that are read before it.
+            Group { keys: &["raise", "plane", "sphere", "off_skin", "length", "gathered"], needed: None },
             Group { keys: &["held", "elevation"], needed: None },
         ],
     } keys {
@@ -192,7 +194,7 @@ operations! {
                 Growth::By(length) => Some(length),
                 _ => None,
             };
-        /// To a length of the guides, longer ones stay as they are; {}.
+        /// To a mean length: each guide to its own share of it, longer ones stay as they are; {}.
         to: Length, in Grow::TO,
             set |grow, length| grow.amount = Growth::To(length),
             get |grow| match grow.amount {

@@ -7,7 +7,8 @@ use frisure::rod::Resolution;
 use frisure::scene::quoted;
 use frisure_engine::ReplicaReport;
 use frisure_engine::report::{
-    DEEP, HairstyleReport, SimulationReport, StepReport, StrandContactReport, WetLockReport,
+    CoarseLines, DEEP, HairstyleReport, SimulationReport, StepReport, StrandContactReport,
+    WetLockReport,
 };
 
 /// The summary of a prediction of a description; `notes` say what was guessed of the head, and `written` has a line about each file.
@@ -67,6 +68,7 @@ pub(super) fn summary(
     }
     out.push('\n');
     out += &buried;
+    out += &coarse_lines(report);
     out += &replicas;
     if let Some(SimulationReport { hairs, stable, contact, .. }) = &report.simulated {
         let _ = match contact {
@@ -87,6 +89,19 @@ pub(super) fn summary(
         let _ = writeln!(out, "wrote {path}");
     }
     out
+}
+
+/// A warning of hair whose lines have too few points, if there is some.
+fn coarse_lines(report: &HairstyleReport) -> String {
+    let Some(CoarseLines { guides, shortest, points }) = report.coarse_lines else {
+        return String::new();
+    };
+    format!(
+        "warning: {guides} of {} guides wind too tightly for the points of their lines, which are up to {:.0} % too short; \
+         `wisps.points = {points}` follows them\n",
+        report.guides.count,
+        (1.0 - shortest) * 100.0
+    )
 }
 
 /// A line about how far guides move in replicas.
@@ -123,7 +138,7 @@ fn contact_line(contact: &StrandContactReport) -> String {
 
 /// A line about a step.
 fn step_line(step: &StepReport) -> String {
-    let StepReport { operation, wisps, changed, .. } = step;
+    let StepReport { operation, wisps, changed, taken_out, .. } = step;
     let mut out = String::new();
     // Writing to a String cannot fail.
     let _ = match changed {
@@ -143,7 +158,12 @@ fn step_line(step: &StepReport) -> String {
         );
     }
     if let Some(short) = step.short.filter(|short| *short > 0) {
-        let _ = write!(out, ", {short} of which do not reach the {operation}");
+        let does = if short == 1 { "does" } else { "do" };
+        let _ = write!(out, "; {short} {does} not reach the {operation}");
+    }
+    if !taken_out.is_empty() {
+        let of = taken_out.iter().map(|(by, count)| format!("{count} out of a {by}"));
+        let _ = write!(out, "; took {}", of.collect::<Vec<_>>().join(", "));
     }
     out.push('\n');
     out

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::apply::{Apply, check_outside, check_point};
+use crate::guides::Guide;
 use crate::hairstyle::{Fastener, Grip, Hairstyle};
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
@@ -10,7 +11,10 @@ use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
 
-/// Holds a place of each wisp at a point.
+/// How much (m) hair may be missing to a clip that holds it: it holds a bundle, not a point. Chosen.
+const REACHED: f64 = 0.01;
+
+/// Holds a place of each wisp at a point. What is too short to reach it even on a straight way stays as it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clip {
     /// Which wisps.
@@ -44,6 +48,25 @@ impl Apply for Clip {
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
         check_outside(act.head, self.to)?;
-        act.held(&self.selection, Grip::Clip { at: self.at, to: self.to, by: Fastener::Clip })
+        let chosen = act.selected(&self.selection)?;
+        let before = act.before;
+        // How much hair is missing (m) on the straight way to the clip, which no way around the head is shorter than.
+        let missing = |guide: &Guide| {
+            guide.root.position.distance(self.to) - self.at * guide.rod.length()
+        };
+        let missing: Vec<f64> = before.guides.iter().map(missing).collect();
+        let reaching: Vec<bool> =
+            chosen.iter().zip(&missing).map(|(&is, missing)| is && *missing <= REACHED).collect();
+        if !reaching.contains(&true) {
+            let nearest = (0..missing.len()).filter(|&i| chosen[i]);
+            let nearest = nearest.min_by(|&a, &b| missing[a].total_cmp(&missing[b]));
+            let has = nearest.map_or(0.0, |i| self.at * before.guides[i].rod.length());
+            let needed = has + nearest.map_or(0.0, |i| missing[i]);
+            return Err(StyleError::NothingGathered { needed, length: has });
+        }
+        act.with(before.styling.changed(&reaching, |_, wisp| {
+            wisp.moved += 1;
+            wisp.grip = Some(Grip::Clip { at: self.at, to: self.to, by: Fastener::Clip });
+        }))
     }
 }

@@ -169,7 +169,7 @@ impl Apply for Cut {
                 let left = crossed.unwrap_or_else(|| population.followed_length(root, index));
                 left - chance.of(index).unwrap_or_default()
             };
-            let mut ends = Ends::cut(&rested, head, stride, &chosen, left);
+            let mut ends = Ends::cut(&rested, head, stride, &chosen, false, left);
             ends.cuts = cuts + 1;
             rested.styling.ends = Some(ends);
             return Ok(rested);
@@ -183,7 +183,7 @@ impl Apply for Cut {
             };
             left - before_line
         };
-        let ends = Ends::cut(hair, head, stride, &chosen, left);
+        let ends = Ends::cut(hair, head, stride, &chosen, !scissors.hanging(), left);
         styling.ends = Some(match self.share {
             share if share < 1.0 => ends.thinned(hair.styling.ends.as_ref(), stride),
             _ => ends,

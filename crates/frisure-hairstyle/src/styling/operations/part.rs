@@ -1,12 +1,16 @@
 //! Parting.
 
+use frisure_rod::{InvalidQuantity, Rod, RodSpec, Root};
+use glam::DMat3;
+
 use crate::hairstyle::Hairstyle;
 use crate::spec::InvalidSpec;
 use crate::styling::error::StyleError;
 use crate::styling::settle::Act;
 use super::apply::Apply;
-use crate::guides::plan;
-use crate::implantation::Layout;
+use crate::guides::{Guide, Planned, covered, plan};
+use crate::head::Head;
+use crate::implantation::{Layout, Ways};
 use crate::spec::{Flow, Parting};
 
 /// Parts all hair anew: roots turn away from the line to both sides, and hair falls to the side that
@@ -51,7 +55,13 @@ impl Apply for Part {
         spec.implantation.partings = vec![self.line.clone()];
         let layout = Layout::new(&spec, head)?;
         let placement = &hair.placement;
-        let planned = plan(&spec, head, &layout, placement.roots(), placement.area())?;
+        let mut planned = plan(&spec, head, &layout, placement.roots(), placement.area())?;
+        let ways = Ways::new(&spec, head, &layout);
+        for (planned, old) in planned.iter_mut().zip(&*hair.styling.planned) {
+            if old.bed.is_some() {
+                *planned = replanted(old, planned, &ways, hair, head)?;
+            }
+        }
         let everyone = vec![true; planned.len()];
         let mut styling = hair.styling.changed(&everyone, |_, wisp| wisp.moved += 1);
         styling.planned = planned.into();
@@ -61,4 +71,28 @@ impl Apply for Part {
         parted.styling.ends = ends.map(|ends| ends.replanted(&parted, head));
         Ok(parted)
     }
+}
+
+/// A guide of a groom, whose fibre no description has, turned about the normal of the skin until it leaves to the side to which `planned` does.
+fn replanted(
+    old: &Guide,
+    planned: &Guide,
+    ways: &Ways<'_>,
+    hair: &Hairstyle,
+    head: &Head,
+) -> Result<Guide, InvalidQuantity> {
+    let normal = old.root.normal;
+    let flat = |guide: &Guide| {
+        let tangent = guide.rod.root().frame().z_axis;
+        tangent - normal * normal.dot(tangent)
+    };
+    let (from, to) = (flat(old), flat(planned));
+    let angle = normal.dot(from.cross(to)).atan2(from.dot(to));
+    let root = old.rod.root();
+    let frame = DMat3::from_axis_angle(normal, angle) * root.frame();
+    let root = Root::new(root.position(), frame.x_axis, frame.y_axis, frame.z_axis)?;
+    let rod = Rod::new(RodSpec { root, ..old.rod.spec().clone() })?;
+    let fibre = Planned { rod, curl: old.curl, share: old.share };
+    let covered = covered(&hair.spec, head, hair.placement.area(), ways, old.root, fibre);
+    Ok(Guide { bed: old.bed.clone(), hold: planned.hold, ..covered })
 }

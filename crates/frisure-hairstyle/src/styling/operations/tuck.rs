@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::apply::Apply;
-use crate::hairstyle::{Fastener, Hairstyle};
+use crate::hairstyle::{Fastener, Grip, Hairstyle};
 use crate::head::Head;
 use crate::styling::error::StyleError;
 use crate::styling::gather::{Gathering, gathered, onto_skin};
@@ -102,8 +102,10 @@ impl<'a> Ear<'a> {
         let before = act.before;
         let line = |i: usize| before.rest.guides[i].centre_line(LOOKED_AT);
         let is_before = |i: usize| self.is_before(before.guides[i].root.position, &line(i));
+        // What is in a tie or on a roller does not hang before the ear.
+        let is_free = |i: usize| !before.styling.wisps[i].grip.is_some_and(Grip::presses);
         let chosen: Vec<bool> =
-            selected.iter().enumerate().map(|(i, &is)| is && is_before(i)).collect();
+            selected.iter().enumerate().map(|(i, &is)| is && is_free(i) && is_before(i)).collect();
         if !chosen.contains(&true) {
             return Err(StyleError::NothingBeforeEar);
         }
