@@ -14,7 +14,7 @@ class Viewer {
     const { own, bounds } = this.drawing.grid;
     // Above all the hair; of a head, its upper part.
     const low = [0, 1, 2].map((k) => Math.max(bounds.low[k], own.low[k] - 0.06));
-    this.camera = new Camera(low, bounds.high, groom.places);
+    this.camera = new Camera(low, bounds.high, groom.hair.places);
     this.turning = this.moving = false;
     this.light(window.matchMedia("(prefers-color-scheme: light)").matches);
     this.listen();
