@@ -26,7 +26,7 @@ use crate::parallel;
 use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec, Implantation};
-use crate::wisps::{BEYOND, Wisp};
+use crate::wisps::Wisp;
 use crate::wisps::{BoundStrands, WISP_SAMPLES};
 use frisure_progress::{Progress, StageCounter};
 
@@ -350,7 +350,7 @@ fn placement(
     spec.wisps.hairs = Hairs::Count(drawn.len());
     let bound = (!hairs.is_empty()).then(|| {
         spec.wisps.points = spec.wisps.points.max(usual_points(hairs));
-        let wisp = |held: &Held| Wisp::new(&held.fit.target, WISP_SAMPLES, BEYOND);
+        let wisp = |held: &Held| Wisp::new(&held.fit.target, WISP_SAMPLES);
         Arc::new(BoundStrands::new(hairs, parallel::map_slice(held, wisp)))
     });
     let hairs = Arc::new(Mutex::new(Some(drawn.into())));

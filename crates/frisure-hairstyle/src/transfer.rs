@@ -15,7 +15,7 @@ use crate::implantation::{Layout, Root, Scalp, Ways};
 use crate::parallel;
 use crate::predict::PredictError;
 use crate::strands::{StrandOptions, strands};
-use crate::wisps::{BEYOND, BoundStrand, BoundStrands, WISP_SAMPLES, Wisp};
+use crate::wisps::{BoundStrand, BoundStrands, WISP_SAMPLES, Wisp};
 
 /// The hair of a groom that was adopted on the head `from`, on the head `to`.
 ///
@@ -97,9 +97,8 @@ fn rebound(
     for (line, strand) in lines.iter().zip(drawn.iter()) {
         hairs.push(line, strand.radii);
     }
-    let wisps = parallel::map_slice(transferred.equilibria(), |guide| {
-        Wisp::new(guide, WISP_SAMPLES, BEYOND)
-    });
+    let wisps =
+        parallel::map_slice(transferred.equilibria(), |guide| Wisp::new(guide, WISP_SAMPLES));
     Ok((!lines.is_empty()).then(|| BoundStrands::new(&hairs, wisps)))
 }
 

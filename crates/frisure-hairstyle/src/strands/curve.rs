@@ -79,15 +79,6 @@ fn length(points: &[DVec3]) -> f64 {
 impl Population<'_> {
     /// The hair rooted somewhere.
     pub(super) fn hair(&self, root: &Root, index: usize) -> Hair {
-        let (binding, points) = self.drawn(root, index);
-        let points = points.into_iter().map(DVec3::as_vec3).collect();
-        let StrandBinding { thickness, cut, .. } = binding;
-        let thickness = thickness * self.own_diameter(binding.main(), index);
-        Hair { guide: binding.main() as u32, thickness, cut, points }
-    }
-
-    /// How the hair rooted somewhere is bound, and its points (m).
-    fn drawn(&self, root: &Root, index: usize) -> (StrandBinding<'_>, Vec<DVec3>) {
         let mut binding = self.bind(root, index);
         let mut points = self.points(&binding);
         let most = STRETCHED * binding.end * binding.length;
@@ -125,7 +116,10 @@ impl Population<'_> {
             binding.end *= (cut as f64 / (points.len() - 1) as f64).max(0.1);
             points = self.points(&binding);
         }
-        (binding, points)
+        let points = points.into_iter().map(DVec3::as_vec3).collect();
+        let StrandBinding { thickness, cut, .. } = binding;
+        let thickness = thickness * self.own_diameter(binding.main(), index);
+        Hair { guide: binding.main() as u32, thickness, cut, points }
     }
 
     fn points(&self, binding: &StrandBinding<'_>) -> Vec<DVec3> {

@@ -23,7 +23,7 @@ use crate::parallel;
 use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
 use crate::wisps::BoundStrands;
-use crate::wisps::{BEYOND, Wisp};
+use crate::wisps::Wisp;
 
 /// How many neighbouring guides a hair can follow. Chosen by trial; not measured further.
 const FOLLOWED: usize = 5;
@@ -142,7 +142,7 @@ impl<'a> Population<'a> {
         // A disc of the same area.
         let patch = spacing / std::f64::consts::PI.sqrt();
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
-        let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, BEYOND);
+        let wisp = |rest: &Equilibrium| Wisp::new(rest, samples);
         let wisps = parallel::map_slice(&rest.guides, wisp);
         let bound = hairstyle.placement.bound(spec, head);
         let planned = styling.planned.iter().map(|g| g.rod.length()).sum::<f64>();

@@ -48,11 +48,11 @@ const STRAIGHT_WINDOW: f64 = 0.01;
 
 /// How far (m) beyond the end of its guide a hair can end: one whose curl drifts, or that was cut. All wisps of a head are known as far, whether
 /// hair was cut or not: what is known beyond its tip turns the axis there. Chosen by trial; not measured further.
-pub(crate) const BEYOND: f64 = 0.05;
+const BEYOND: f64 = 0.05;
 
 impl Wisp {
-    /// Samples a guide at `samples` points, and goes on `beyond` the tip (m), by its own length at most, for hairs that end a little farther out.
-    pub(crate) fn new(guide: &Equilibrium, samples: usize, beyond: f64) -> Self {
+    /// Samples a guide at `samples` points, and goes on beyond the tip, by its own length at most, for hairs that end a little farther out.
+    pub(crate) fn new(guide: &Equilibrium, samples: usize) -> Self {
         let line = guide.sample(samples);
         let length = guide.rod.length();
         let spacing = length / (samples - 1) as f64;
@@ -64,7 +64,7 @@ impl Wisp {
         let half = (0.5 * window / spacing).max(1.0);
         // The mean over a turn needs half a turn more at both ends.
         let more = if winds > 0.0 { half.ceil() as usize + 1 } else { 0 };
-        let beyond = ((beyond.min(length) / spacing) as usize).min(MOST_BEYOND);
+        let beyond = ((BEYOND.min(length) / spacing) as usize).min(MOST_BEYOND);
         let after = continued(guide, line[samples - 1], length, spacing, beyond + more);
         let before = continued(guide, line[0], 0.0, -spacing, more);
         let directors = line.iter().map(|(_, frame)| frame.x_axis.as_vec3()).collect();
@@ -246,7 +246,7 @@ mod tests {
             let options = Options { element, ..Options::default() };
             let of = |length| equilibrium(&weightless(length), &[], &options);
             // Without weight both are the natural helix.
-            let (short, long) = (Wisp::new(&of(0.06), 241, 0.03), Wisp::new(&of(0.12), 481, 0.0));
+            let (short, long) = (Wisp::new(&of(0.06), 241), Wisp::new(&of(0.12), 481));
             assert!(short.end() > 1.49);
             for s in [0.05, 0.061, 0.07, 0.08, 0.089] {
                 let (a, b) = (short.at(s / 0.06).0, long.at(s / 0.12).0);
@@ -259,7 +259,7 @@ mod tests {
     #[test]
     fn a_curl_winds_about_its_axis_from_the_root_to_the_tip() {
         let rest = equilibrium(&weightless(0.12), &[], &Options::default());
-        let wisp = Wisp::new(&rest, 481, 0.02);
+        let wisp = Wisp::new(&rest, 481);
         let (start, along) = (wisp.centre(0.0).0, wisp.axis(0.0, wisp.centre(0.0)).direction);
         for k in 0..=20 {
             let x = f64::from(k) / 20.0 * wisp.end();

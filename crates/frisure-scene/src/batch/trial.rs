@@ -118,7 +118,11 @@ fn error_in_batch(
         error => Diagnostic::new(error.to_string()).key(key),
     };
     let diagnostic = match written.and_then(|written| in_table(batch, key, written)) {
-        Some(cell) => diagnostic.hint(cell),
+        Some(cell) if diagnostic.hint.is_empty() => diagnostic.hint(cell),
+        Some(cell) => {
+            let both = format!("{cell}; {}", diagnostic.hint);
+            diagnostic.hint(both)
+        }
         None => diagnostic,
     };
     diagnostic.at(&batch.source, span)

@@ -96,7 +96,7 @@ fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String
             "choose hair of the sides, the fringe or the top with `where`".into()
         }
         StyleError::NothingGathered { .. } => {
-            "let the hair grow first, or hold it nearer to its roots; lengths and places are in the head's frame (m)".into()
+            "let the hair grow first, or hold it nearer to its roots".into()
         }
         StyleError::NothingReached { .. } => {
             "put the tie where hair gets to it around the head, such as `\"middle\"`".into()

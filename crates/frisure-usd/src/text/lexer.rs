@@ -190,9 +190,19 @@ impl<'a> Lexer<'a> {
 
     fn asset(&mut self) -> Result<Token<'a>, String> {
         let mark = if self.text[self.at..].starts_with("@@@") { "@@@" } else { "@" };
-        let asset = self.until(self.at + mark.len(), mark)?;
-        self.at += asset.len() + 2 * mark.len();
-        Ok(Token::Asset(asset))
+        let from = self.at + mark.len();
+        let mut end = from + self.until(from, mark)?.len();
+        if mark.len() > 1 {
+            // Three that belong to the path have a backslash before them; up to two may stand before the last three.
+            while self.text[..end].ends_with('\\') && end > from {
+                end += mark.len();
+                end += self.until(end, mark)?.len();
+            }
+            let more = self.text[end + mark.len()..].bytes().take_while(|b| *b == b'@').count();
+            end += more.min(2);
+        }
+        self.at = end + mark.len();
+        Ok(Token::Asset(&self.text[from..end]))
     }
 
     fn string(&mut self, quote: u8) -> Result<Token<'a>, String> {
@@ -242,4 +252,24 @@ fn unescaped(text: &str) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_between_three_marks_have_marks_of_their_own() {
+        for (text, path) in [
+            ("@./a.png@ x", "./a.png"),
+            ("@@@./a@2x.png@@@ x", "./a@2x.png"),
+            ("@@@a\\@@@b@@@ x", "a\\@@@b"),
+            ("@@@a@@@@@ x", "a@@"),
+        ] {
+            let mut lexer = Lexer::new(text);
+            assert!(matches!(lexer.next(), Ok(Token::Asset(found)) if found == path), "{text}");
+            assert!(matches!(lexer.next(), Ok(Token::Name("x"))), "{text}");
+        }
+        assert!(Lexer::new("@@@a\\@@@").next().is_err());
+    }
 }

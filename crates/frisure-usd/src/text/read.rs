@@ -361,7 +361,7 @@ impl<'a> Reader<'a> {
         if let Data::Words(words) = data {
             let word = match self.lexer.next()? {
                 Token::Text(text) => text,
-                Token::Asset(asset) => asset.to_owned(),
+                Token::Asset(asset) => asset.replace("\\@@@", "@@@"),
                 // Metadata has some words without quotes.
                 Token::Name(word) => word.to_owned(),
                 other => {

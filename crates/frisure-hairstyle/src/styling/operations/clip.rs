@@ -55,15 +55,14 @@ impl Apply for Clip {
             guide.root.position.distance(self.to) - self.at * guide.rod.length()
         };
         let missing: Vec<f64> = before.guides.iter().map(missing).collect();
+        let chosen_ones = (0..missing.len()).filter(|&i| chosen[i]);
+        let nearest = chosen_ones.min_by(|&a, &b| missing[a].total_cmp(&missing[b]));
+        if let Some(nearest) = nearest.filter(|&i| missing[i] > REACHED) {
+            let length = self.at * before.guides[nearest].rod.length();
+            return Err(StyleError::NothingGathered { needed: length + missing[nearest], length });
+        }
         let reaching: Vec<bool> =
             chosen.iter().zip(&missing).map(|(&is, missing)| is && *missing <= REACHED).collect();
-        if !reaching.contains(&true) {
-            let nearest = (0..missing.len()).filter(|&i| chosen[i]);
-            let nearest = nearest.min_by(|&a, &b| missing[a].total_cmp(&missing[b]));
-            let has = nearest.map_or(0.0, |i| self.at * before.guides[i].rod.length());
-            let needed = has + nearest.map_or(0.0, |i| missing[i]);
-            return Err(StyleError::NothingGathered { needed, length: has });
-        }
         act.with(before.styling.changed(&reaching, |_, wisp| {
             wisp.moved += 1;
             wisp.grip = Some(Grip::Clip { at: self.at, to: self.to, by: Fastener::Clip });
