@@ -105,6 +105,14 @@ impl Cells {
     /// Puts one strand into the cells it runs through.
     fn fill(&self, strands: &Strands, strand: usize, quanta: &[AtomicU64]) {
         let strand = strands.strand(strand);
+        // What is not yet in the cell that the strand has come to: neighbouring pieces are mostly in one.
+        let mut held = (None, 0);
+        let put = |(cell, share): (Option<usize>, u64)| {
+            if let Some(cell) = cell {
+                quanta[cell].fetch_add(share, Ordering::Relaxed);
+            }
+        };
+        let cells = 1.0 / self.side;
         for k in 1..strand.points.len() {
             let [a, b] = [k - 1, k].map(|k| strand.points[k].as_dvec3());
             let radii = [k - 1, k].map(|k| f64::from(strand.radii[k]));
@@ -119,10 +127,15 @@ impl Cells {
             let share = (whole / pieces / QUANTUM).round() as u64;
             for piece in 0..pieces as u32 {
                 let p = a.lerp(b, (f64::from(piece) + 0.5) / pieces);
-                let key = ((p - self.low) / self.side).floor().as_ivec3();
-                quanta[self.index(key)].fetch_add(share, Ordering::Relaxed);
+                // Not negative: the cast rounds down.
+                let cell = Some(self.index(((p - self.low) * cells).as_ivec3()));
+                if cell != held.0 {
+                    put(std::mem::replace(&mut held, (cell, 0)));
+                }
+                held.1 += share;
             }
         }
+        put(held);
     }
 
     /// Volume (m³) of the region, of the volumes of hair in each cell.

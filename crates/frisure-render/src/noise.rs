@@ -22,8 +22,11 @@ pub(crate) fn unit(bits: u32) -> f32 {
 
 /// The noise at `p`, in lattice units: about −0.8 to 0.8 with a mean of 0 and a deviation of 0.25; and its gradient.
 pub(crate) fn noise(p: Vec3, seed: u32) -> (f32, Vec3) {
-    let floor = p.floor();
-    let (corner, t) = (floor.as_ivec3(), p - floor);
+    // By a cast: rounding is a call into the C library on processors without SSE 4.1.
+    let towards_zero = p.as_ivec3();
+    let above = towards_zero.as_vec3().cmpgt(p);
+    let corner = towards_zero - IVec3::select(above, IVec3::ONE, IVec3::ZERO);
+    let t = p - corner.as_vec3();
     // Perlin's quintic, whose second derivatives vanish at corners.
     let weight = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
     let slope = 30.0 * t * t * (t * (t - 2.0) + 1.0);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::gathering::Gathering;
-use super::splits::OwnCurl;
+use super::winding::{OwnCurl, Winding};
 use crate::implantation::Root;
 use crate::random::Stream;
 use crate::spec::Wisps;
@@ -77,7 +77,7 @@ impl StrandVariation {
     }
 
     /// The same without any deviation by chance.
-    pub(super) fn without_deviation(self) -> Self {
+    fn without_deviation(self) -> Self {
         Self { drift: 1.0, waves: Waves::NONE, curl: OwnCurl::GUIDE, ..self }
     }
 }
@@ -88,6 +88,8 @@ pub(super) struct StrandBinding<'a> {
     /// Guides that it follows, with weights that sum to one; its own first.
     pub(super) followed: Vec<(usize, f64)>,
     pub(super) variation: StrandVariation,
+    /// How it curls.
+    pub(super) winding: Winding,
     /// The thinner wisp that it gathers to.
     pub(super) split: Option<Gathering<'a>>,
     /// The lock that it gathers to if it is wet.
@@ -116,7 +118,22 @@ pub(super) struct StrandBinding<'a> {
     pub(super) shift: DVec3,
 }
 
+/// How a hair curls that gathers to a split, or follows the guide `main` most, where its own curl differs from theirs.
+pub(super) fn winding(split: Option<&Gathering<'_>>, main: usize, own: OwnCurl) -> Winding {
+    match split {
+        Some(Gathering { line, .. }) => Winding::new(line.winding.main, line.winding.curl.and(own)),
+        None => Winding::new(main, own),
+    }
+}
+
 impl StrandBinding<'_> {
+    /// The same without any deviation by chance.
+    pub(super) fn without_deviation(self) -> Self {
+        let variation = self.variation.without_deviation();
+        let winding = winding(self.split.as_ref(), self.followed[0].0, variation.curl);
+        Self { variation, winding, ..self }
+    }
+
     /// Whether it leaves its wisp.
     pub(super) fn stray(&self) -> bool {
         self.variation.stray

@@ -1,15 +1,16 @@
 //! Where drawn strands go: the curves of their guides, transported and laid on the skin.
 
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use super::binding::StrandBinding;
 use super::gathering::{Gathering, Tier};
 use super::population::Population;
 use super::skin::{Free, LAID, PRESSED, below};
-use super::splits::{OwnCurl, SplitId, SplitLine, Splits};
+use super::splits::{SplitId, SplitLine, Splits};
+use super::winding::Winding;
 use crate::implantation::Root;
 use crate::math::{Crossing, smooth_step};
-use crate::wisps::{BoundStrand, BoundStrands};
+use crate::wisps::{BoundStrand, BoundStrands, Place};
 
 /// Least length (m) along which hair gathers into wisps: short hair stands by itself. Chosen by eye; not measured.
 const GATHERING: f64 = 0.12;
@@ -62,7 +63,9 @@ fn gathered(along: f64, uncut: f64) -> f64 {
 }
 
 /// Where along a hair, and how wide its wisp is there.
-struct Place {
+struct HairPlace {
+    /// In lengths of its guides.
+    x: f64,
     /// Arc length (m).
     along: f64,
     /// How far hairs have gathered.
@@ -182,19 +185,15 @@ impl Population<'_> {
         let gathered = gathered(along, *uncut);
         let drifted = x * (1.0 + (variation.drift - 1.0) * rise);
         let drawn_in = 1.0 + (narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * length), along);
-        let place = Place { along, gathered, width: drawn_in };
-        let (main, curl) = match binding.split {
-            Some(Gathering { line, .. }) => (line.main, line.curl.and(variation.curl)),
-            None => (binding.main(), variation.curl),
-        };
-        let mut point = self.between(root.position, &binding.followed, main, curl, drifted, &place);
+        let place = HairPlace { x: drifted, along, gathered, width: drawn_in };
+        let mut point = self.between(root.position, &binding.followed, &binding.winding, &place);
         // What makes a hair stray is in a lock smaller than all else: there it is held by its neighbours. The power of two is chosen.
         let mut free = 1.0;
         if let Some(to) = &binding.split {
             point = point.lerp(to.line.at(drifted), to.share(along, gathered, 1.0));
         }
         if let Some(to) = &binding.lock {
-            let width = drawn_in * self.narrowing(binding.main(), along, gathered);
+            let width = drawn_in * self.narrowing(binding.main(), x, along, gathered);
             let share = to.share(along, gathered, width);
             point = point.lerp(to.line.at(drifted), share);
             free -= share;
@@ -225,9 +224,12 @@ impl Population<'_> {
             // Lengths (m) of dry hair.
             let length = self.states[g].length;
             let known = before.length.min(now.end() * length);
-            let (old, turned) = before.at(s.min(known) / before.length);
-            let (new, turn) = now.at((s.min(known) + grown) / length);
-            point += (new + turn * (turned.inverse() * (at - old)) * narrow) * weight;
+            let (old, new) = (
+                before.place(s.min(known) / before.length),
+                now.place((s.min(known) + grown) / length),
+            );
+            let away = before.turn(&old).inverse() * (at - before.guide(&old));
+            point += (now.guide(&new) + now.turned(&new, away) * narrow) * weight;
         }
         point
     }
@@ -267,8 +269,9 @@ impl Population<'_> {
             let followed = self.following(&split.root, &split.root);
             let larger = larger.and_then(|id| self.gathering(tier, id, followed[0].0));
             let larger = larger.as_ref();
-            let main = larger.map_or(followed[0].0, |to| to.line.main);
-            let curl = larger.map_or(split.curl, |to| to.line.curl.and(split.curl));
+            let main = larger.map_or(followed[0].0, |to| to.line.winding.main);
+            let curl = larger.map_or(split.curl, |to| to.line.winding.curl.and(split.curl));
+            let winding = Winding::new(main, curl);
             let mean =
                 |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum::<f64>();
             let length = mean(&|g| self.wisps[g].length);
@@ -280,11 +283,11 @@ impl Population<'_> {
             let point = |k: usize| {
                 let x = k as f64 / (samples - 1) as f64 * end;
                 let along = x * length;
-                let place = Place { along, gathered: gathered(along, uncut), width: 1.0 };
-                let mut p = self.between(position, &followed, main, curl, x, &place);
+                let place = HairPlace { x, along, gathered: gathered(along, uncut), width: 1.0 };
+                let mut p = self.between(position, &followed, &winding, &place);
                 let mut free = 1.0;
                 if let Some(to) = larger {
-                    let width = self.narrowing(followed[0].0, along, place.gathered);
+                    let width = self.narrowing(followed[0].0, x, along, place.gathered);
                     let share = to.share(along, place.gathered, width);
                     p = p.lerp(to.line.at(x), share);
                     if to.wet.is_some() {
@@ -295,57 +298,70 @@ impl Population<'_> {
                 (p + split.waves.at(along / planned) * (rise * free * free)).as_vec3()
             };
             let points = (0..samples).map(point).collect();
-            SplitLine::new([followed[0].0, main], curl, end, points)
+            SplitLine::new(followed[0].0, winding, end, points)
         })
     }
 
-    /// Where (m) hair rooted at a point (m) of the skin goes that follows some guides, at `x` of their length: between their
-    /// axes, with the curl of the guide `main`, turned and widened.
+    /// Where (m) hair rooted at a point (m) of the skin goes that follows some guides, at a place: between their axes, with the curl
+    /// of one guide, turned and widened.
     fn between(
         &self,
         root: DVec3,
         followed: &[(usize, f64)],
-        main: usize,
-        own: OwnCurl,
-        x: f64,
-        place: &Place,
+        winding: &Winding,
+        place: &HairPlace,
     ) -> DVec3 {
-        let &Place { along, gathered, width } = place;
+        let &HairPlace { x, along, gathered, width } = place;
+        let main = winding.main;
         let mut centre = DVec3::ZERO;
         let mut of_main = None;
         for &(g, weight) in followed {
             // A(x) + n(x) T(x) δ, weighted over the guides. docs/theory.md, "Wisps"
-            let (axis, turn) = self.wisps[g].centre(x);
+            let wisp = &self.wisps[g];
+            let at = wisp.place(x);
+            let axis = wisp.axis(&at);
+            let across =
+                (root - self.roots[g]) * (width * self.narrowing_at(g, &at, along, gathered));
+            centre += (axis + wisp.turned(&at, across)) * weight;
             if g == main {
-                of_main = Some((axis, turn));
+                of_main = Some((at, axis));
             }
-            let across = root - self.roots[g];
-            centre +=
-                (axis + turn * across * (width * self.narrowing(g, along, gathered))) * weight;
         }
         let departed = smooth_step(0.0, DEPARTING, along);
         if departed < 1.0 {
             // Every curl begins in its follicle: what those of the guides differ by there is lost on the first centimetre.
-            let begin = |g: usize| self.roots[g] - self.wisps[g].centre(0.0).0;
+            let begin = |g: usize| self.roots[g] - self.marks[g][0];
             let mean: DVec3 = followed.iter().map(|&(g, weight)| begin(g) * weight).sum();
             centre += (mean - begin(main)) * (1.0 - departed);
         }
-        let axis = self.wisps[main].axis(x, of_main.unwrap_or_else(|| self.wisps[main].centre(x)));
-        let turned = DQuat::from_axis_angle(axis.direction, own.phase * departed);
-        centre + turned * axis.curl * (1.0 + (own.radius - 1.0) * departed)
+        let wisp = &self.wisps[main];
+        let (at, axis) = of_main.unwrap_or_else(|| {
+            let at = wisp.place(x);
+            (at, wisp.axis(&at))
+        });
+        centre + winding.turned(wisp.guide(&at) - axis, wisp.direction(&at), departed)
     }
 
-    /// Width of a wisp at arc length `s` (m), as a fraction of its patch of skin.
-    fn narrowing(&self, guide: usize, s: f64, gathered: f64) -> f64 {
-        let packed = self.guides[guide].thickness.packed(s) / self.patch;
+    /// Width of a wisp at `x` of its guide's length and the arc length `s` (m) of a hair, as a fraction of its patch of skin.
+    fn narrowing(&self, guide: usize, x: f64, s: f64, gathered: f64) -> f64 {
+        self.narrowing_at(guide, &self.wisps[guide].place(x), s, gathered)
+    }
+
+    fn narrowing_at(&self, guide: usize, at: &Place, s: f64, gathered: f64) -> f64 {
+        let packed = &self.packed[guide][at.station..at.station + 2];
+        let packed = packed[0] + (packed[1] - packed[0]) * at.part;
+        // n from 1, the patch of skin, by the share `clumping` to the packed radius over that of the patch.
+        let narrow = 1.0 + self.spec.wisps.clumping * gathered * (packed - 1.0);
         let [root, middle, tip] = self.spec.wisps.profile;
+        if root == middle && middle == tip {
+            return narrow * root;
+        }
         let x = (s / self.states[guide].uncut).min(1.0);
         let along = if x < 0.5 {
             root + (middle - root) * 2.0 * x
         } else {
             middle + (tip - middle) * (2.0 * x - 1.0)
         };
-        // n from 1, the patch of skin, by the share `clumping` to the packed radius over that of the patch.
-        (1.0 + self.spec.wisps.clumping * gathered * (packed - 1.0)) * along
+        narrow * along
     }
 }

@@ -16,6 +16,7 @@ mod population;
 mod simulated;
 mod skin;
 mod splits;
+mod winding;
 
 use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::DVec3;

@@ -3,7 +3,7 @@
 use frisure_rod::Equilibrium;
 use glam::DVec3;
 
-use super::binding::{StrandBinding, StrandVariation};
+use super::binding::{StrandBinding, StrandVariation, winding};
 use super::gathering::Tier;
 use super::locks::Locks;
 use super::skin::{PRESSED, Skin};
@@ -76,14 +76,14 @@ pub(crate) struct Population<'a> {
     /// Whether that is its own length, rather than that along its guides.
     straight: Option<&'a [bool]>,
     pub(super) wisps: Vec<Wisp>,
-    /// Where (m) each wisp is at [`MARKS`].
-    marks: Vec<[DVec3; 4]>,
+    /// The radius that the hairs of each wisp need at its stations, over that of its patch.
+    pub(super) packed: Vec<Box<[f64]>>,
+    /// Where (m) the axis of each wisp is at [`MARKS`].
+    pub(super) marks: Vec<[DVec3; 4]>,
     grid: Grid,
     pub(super) roots: Vec<DVec3>,
     /// Mean distance of neighbouring guides (m).
     pub(super) spacing: f64,
-    /// Radius of the patch of skin that a wisp grows from (m).
-    pub(super) patch: f64,
     /// The thinner wisps into which hair splits.
     pub(super) splits: Splits,
     /// The locks of wet hair.
@@ -143,6 +143,10 @@ impl<'a> Population<'a> {
         let patch = spacing / std::f64::consts::PI.sqrt();
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
         let wisp = |rest: &Equilibrium| Wisp::new(rest, samples);
+        let packed = |(guide, wisp): (&Guide, &Wisp)| -> Box<[f64]> {
+            let radius = |x: f64| guide.thickness.packed(x * wisp.length) / patch;
+            wisp.stations().map(radius).collect()
+        };
         let wisps = parallel::map_slice(&rest.guides, wisp);
         let bound = hairstyle.placement.bound(spec, head);
         let planned = styling.planned.iter().map(|g| g.rod.length()).sum::<f64>();
@@ -170,12 +174,12 @@ impl<'a> Population<'a> {
             states: &styling.wisps,
             limits,
             straight: styling.ends.as_ref().map(|ends| &*ends.straight),
-            marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.centre(x).0)).collect(),
+            marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.axis(&wisp.place(x)))).collect(),
+            packed: guides.iter().zip(&wisps).map(packed).collect(),
             wisps,
             grid: Grid::new(&roots, spacing),
             roots,
             spacing,
-            patch,
             splits: match bound {
                 Some(_) => Splits::NONE,
                 None => Splits::new(&plan, place),
@@ -219,13 +223,15 @@ impl<'a> Population<'a> {
         let (dry, cut) = (grown.min(limit), limit < grown);
         let stretch = self.stretch(main);
         let known = if own.is_some() { f64::INFINITY } else { self.wisps[main].end() };
+        let split = if own.is_none() && variation.gathers() {
+            self.gathers_to(Tier::Splits, root.position, main)
+        } else {
+            None
+        };
         let mut binding = StrandBinding {
             root: *root,
-            split: if own.is_none() && variation.gathers() {
-                self.gathers_to(Tier::Splits, root.position, main)
-            } else {
-                None
-            },
+            winding: winding(split.as_ref(), main, variation.curl),
+            split,
             // Water draws in hairs that leave their wisp when dry, too.
             lock: self.gathers_to(Tier::Locks, root.position, main),
             followed,

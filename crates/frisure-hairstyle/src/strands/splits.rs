@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 
 use glam::{DVec3, Vec3};
 
+use super::winding::{OwnCurl, Winding};
 use crate::implantation::{Layout, Root};
 use crate::math::Grid;
 use crate::random::{Purpose, Stream};
@@ -31,35 +32,6 @@ const LOOSEST: f64 = 0.4;
 /// the latter are among each other. Chosen by eye; not measured.
 const WITHIN: f64 = 0.35;
 
-/// Largest factor on the radius of a curl: a wider one would be longer than its hair. Chosen.
-pub(super) const WIDEST: f64 = 1.1;
-
-/// How the curl of a strand differs from that of its guide.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OwnCurl {
-    /// Angle (rad) by which it is turned about the axis.
-    pub(super) phase: f64,
-    /// Factor on its radius.
-    pub(super) radius: f64,
-}
-
-impl OwnCurl {
-    /// That of the guide.
-    pub(super) const GUIDE: Self = Self { phase: 0.0, radius: 1.0 };
-
-    /// Turned by up to half a turn times `phase` to both sides, and as much wider or narrower as `deviation` says.
-    pub(super) fn new(phase: f64, deviation: f64, random: &mut Stream) -> Self {
-        let phase = phase.min(1.0) * PI * random.between(-1.0, 1.0);
-        Self { phase, radius: random.factor(deviation).min(WIDEST) }
-    }
-
-    /// One after the other.
-    pub(super) fn and(self, other: Self) -> Self {
-        let radius = (self.radius * other.radius).min(WIDEST);
-        Self { phase: self.phase + other.phase, radius }
-    }
-}
-
 /// One split.
 pub(super) struct Split {
     pub(super) root: Root,
@@ -78,25 +50,17 @@ pub(super) struct Split {
 pub(super) struct SplitLine {
     /// The guide that it follows most.
     pub(super) followed: usize,
-    /// The guide whose curl it has.
-    pub(super) main: usize,
-    /// How its curl differs from that.
-    pub(super) curl: OwnCurl,
+    /// How it curls.
+    pub(super) winding: Winding,
     /// How far along its guides it is known, 1 for the tip.
     end: f64,
     points: Box<[Vec3]>,
 }
 
 impl SplitLine {
-    /// The line through evenly spaced points, from the root to `end` of the length of its guides, with the guide that it follows
-    /// most and that whose curl it has.
-    pub(super) fn new(
-        [followed, main]: [usize; 2],
-        curl: OwnCurl,
-        end: f64,
-        points: Box<[Vec3]>,
-    ) -> Self {
-        Self { followed, main, curl, end, points }
+    /// The line through evenly spaced points, from the root to `end` of the length of its guides, with the guide that it follows most.
+    pub(super) fn new(followed: usize, winding: Winding, end: f64, points: Box<[Vec3]>) -> Self {
+        Self { followed, winding, end, points }
     }
 
     /// Where (m) it is at `x` of the length of its guides.

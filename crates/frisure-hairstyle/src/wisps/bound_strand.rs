@@ -72,7 +72,7 @@ impl BoundStrand {
 impl BoundStrands {
     /// The hairs of a groom, and its guides as it has them.
     pub(crate) fn new(hairs: &Strands, wisps: Vec<Wisp>) -> Self {
-        let roots: Vec<DVec3> = wisps.iter().map(|wisp| wisp.at(0.0).0).collect();
+        let roots: Vec<DVec3> = wisps.iter().map(|wisp| wisp.guide(&wisp.place(0.0))).collect();
         let (low, high) =
             roots.iter().fold((roots[0], roots[0]), |(l, h), p| (l.min(*p), h.max(*p)));
         let spacing = ((high - low).length() / (roots.len() as f64).sqrt()).max(1e-3);
@@ -103,7 +103,7 @@ fn bindings(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f6
         let wisp = &wisps[guide];
         let square = |k: usize| {
             let s = own.length() * k as f64 / COMPARED as f64;
-            own.at(s).distance_squared(wisp.at(s / wisp.length).0)
+            own.at(s).distance_squared(wisp.guide(&wisp.place(s / wisp.length)))
         };
         let mean = (0..=COMPARED).map(square).sum::<f64>() / (COMPARED + 1) as f64;
         // The bound keeps a guide that is the hair itself from an infinite weight.

@@ -6,4 +6,4 @@ mod wisp;
 
 pub(crate) use bound_strand::{BoundStrand, BoundStrands, WISP_SAMPLES};
 pub(crate) use waves::Waves;
-pub(crate) use wisp::Wisp;
+pub(crate) use wisp::{Place, Wisp};

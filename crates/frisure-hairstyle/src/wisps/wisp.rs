@@ -16,12 +16,12 @@ use crate::math::smooth_step;
 #[derive(Clone, Debug)]
 pub(crate) struct Wisp {
     pub(crate) length: f64,
-    /// Distance (m) of the positions.
-    spacing: f64,
-    /// From the root to the tip and perhaps beyond.
-    positions: Vec<DVec3>,
+    /// Stations from the root to the tip, less one.
+    steps: f64,
+    /// The guide at the stations, from the root to the tip and perhaps beyond.
+    positions: Stations,
     /// The axis that the curl winds about: means of the positions over one turn; the positions themselves without a curl.
-    axis: Vec<DVec3>,
+    axis: Stations,
     /// Direction (unit) of the axis at the root.
     forward: DVec3,
     /// Rotation of the axis from the root.
@@ -34,13 +34,53 @@ pub(crate) struct Wisp {
 /// only bends, and the guide is its own axis. Chosen by eye; not measured.
 const WINDING: (f64, f64) = (0.35, 0.5);
 
-/// How the curl of a guide lies about its axis.
+/// Where along a wisp: after which of its stations, and how far from there to the next one.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct AxisPoint {
-    /// From the axis to the guide (m).
-    pub(crate) curl: DVec3,
-    /// Direction of the axis (unit).
-    pub(crate) direction: DVec3,
+pub(crate) struct Place {
+    pub(crate) station: usize,
+    pub(crate) part: f64,
+    /// Weights of the cubic through the station before that, this one and two after it.
+    weights: [f64; 4],
+}
+
+impl Place {
+    fn new(station: usize, part: f64) -> Self {
+        // Hermite's cubic with central differences as tangents (Catmull & Rom 1974).
+        let (t, t2) = (part, part * part);
+        let t3 = t2 * t;
+        let weights = [
+            t2 - 0.5 * (t + t3),
+            1.0 - 2.5 * t2 + 1.5 * t3,
+            0.5 * t + 2.0 * t2 - 1.5 * t3,
+            0.5 * (t3 - t2),
+        ];
+        Self { station, part, weights }
+    }
+}
+
+/// Points (m) at the stations of a wisp, with one more before the first and one after the last, where the line goes on straight.
+#[derive(Clone, Debug)]
+struct Stations(Vec<DVec3>);
+
+impl Stations {
+    /// Of at least two points.
+    fn new(points: &[DVec3]) -> Self {
+        let last = points.len() - 1;
+        let before = points[0] * 2.0 - points[1];
+        let after = points[last] * 2.0 - points[last - 1];
+        Self([&[before], points, &[after]].concat())
+    }
+
+    fn last(&self) -> usize {
+        self.0.len() - 3
+    }
+
+    /// The interpolating cubic through the points.
+    fn at(&self, place: &Place) -> DVec3 {
+        let [a, b, c, d] = place.weights;
+        let near = &self.0[place.station..place.station + 4];
+        near[0] * a + near[1] * b + near[2] * c + near[3] * d
+    }
 }
 
 /// Longest window (m) for the axis of hair without a curl. Chosen by trial; not measured further.
@@ -71,42 +111,73 @@ impl Wisp {
         let known: Vec<DVec3> = line.into_iter().map(|(p, _)| p).chain(after).collect();
         let last = known.len() - more.min(known.len() - samples);
         let axis = axis(&known, &before, half, winds, last);
-        let positions = known[..last].to_vec();
-        let (forward, turns) = transported(&positions, half);
-        Self { length, spacing, positions, axis, forward, turns, directors }
+        let positions = &known[..last];
+        let (forward, turns) = transported(positions, half);
+        Self {
+            length,
+            steps: (samples - 1) as f64,
+            positions: Stations::new(positions),
+            axis: Stations::new(&axis),
+            forward,
+            turns,
+            directors,
+        }
     }
 
     /// How far it is known, 1 for the tip.
     pub(crate) fn end(&self) -> f64 {
-        (self.positions.len() - 1) as f64 * self.spacing / self.length
+        self.positions.last() as f64 / self.steps
     }
 
-    /// Index of the sample before `x`, and how far it is from there to the next one.
-    fn place(&self, x: f64) -> (usize, f64) {
-        let last = self.positions.len() - 1;
-        let place = (x.max(0.0) * self.length / self.spacing).min(last as f64);
-        let i = (place as usize).min(last - 1);
-        (i, place - i as f64)
+    /// The place at `x` from 0 (root) to 1 (tip) or to [`Self::end`].
+    pub(crate) fn place(&self, x: f64) -> Place {
+        let last = self.positions.last();
+        let place = (x.max(0.0) * self.steps).min(last as f64);
+        let station = (place as usize).min(last - 1);
+        Place::new(station, place - station as f64)
     }
 
-    /// Place on the axis (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip) or to [`Self::end`].
-    pub(crate) fn centre(&self, x: f64) -> (DVec3, DQuat) {
-        let (i, t) = self.place(x);
-        (catmull_rom(&self.axis, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
+    /// Where `x` is of each station.
+    pub(crate) fn stations(&self) -> impl Iterator<Item = f64> {
+        let steps = self.steps;
+        (0..=self.positions.last()).map(move |station| station as f64 / steps)
     }
 
-    /// The direction of the axis and the curl about it, at `x` where [`Self::centre`] is known.
-    pub(crate) fn axis(&self, x: f64, (centre, turn): (DVec3, DQuat)) -> AxisPoint {
-        let (i, t) = self.place(x);
-        let curl = catmull_rom(&self.positions, i, t) - centre;
-        AxisPoint { curl, direction: turn * self.forward }
+    /// The axis (m).
+    pub(crate) fn axis(&self, place: &Place) -> DVec3 {
+        self.axis.at(place)
     }
 
-    /// Position (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip) or to
-    /// [`Self::end`].
-    pub(crate) fn at(&self, x: f64) -> (DVec3, DQuat) {
-        let (i, t) = self.place(x);
-        (catmull_rom(&self.positions, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
+    /// The guide (m).
+    pub(crate) fn guide(&self, place: &Place) -> DVec3 {
+        self.positions.at(place)
+    }
+
+    /// Rotation of the axis from the root.
+    pub(crate) fn turn(&self, place: &Place) -> DQuat {
+        self.turn_unscaled(place).normalize()
+    }
+
+    /// What the axis makes of a vector at the root, as it turns.
+    pub(crate) fn turned(&self, place: &Place, v: DVec3) -> DVec3 {
+        // A rotation by a quaternion that is not of unit length is scaled by the square of its length.
+        let turn = self.turn_unscaled(place);
+        let (b, w) = (DVec3::new(turn.x, turn.y, turn.z), turn.w);
+        let bb = b.length_squared();
+        let rotated = v * (w * w - bb) + b * (2.0 * v.dot(b)) + b.cross(v) * (2.0 * w);
+        rotated / (w * w + bb)
+    }
+
+    /// Direction (unit) of the axis.
+    pub(crate) fn direction(&self, place: &Place) -> DVec3 {
+        self.turned(place, self.forward)
+    }
+
+    fn turn_unscaled(&self, place: &Place) -> DQuat {
+        let (from, to) = (self.turns[place.station], self.turns[place.station + 1]);
+        // The shorter way round.
+        let sign = if from.dot(to) < 0.0 { -1.0 } else { 1.0 };
+        from * (1.0 - place.part) + to * (sign * place.part)
     }
 }
 
@@ -114,7 +185,7 @@ impl Wisp {
     /// The director d1 of the guide at `x` from 0 (root) to 1 (tip).
     pub(crate) fn director(&self, x: f64) -> Vec3 {
         let last = self.directors.len() - 1;
-        let place = (x.max(0.0) * self.length / self.spacing).min(last as f64);
+        let place = (x.max(0.0) * self.steps).min(last as f64);
         let i = (place as usize).min(last - 1);
         let t = (place - i as f64) as f32;
         self.directors[i].lerp(self.directors[i + 1], t).normalize_or(self.directors[i])
@@ -176,20 +247,6 @@ fn axis(known: &[DVec3], before: &[DVec3], half: f64, winds: f64, count: usize) 
     (0..count).map(|k| known[k].lerp(mean(k), winds)).collect()
 }
 
-/// The interpolating cubic through evenly spaced points, between points `i` and `i + 1`.
-fn catmull_rom(points: &[DVec3], i: usize, t: f64) -> DVec3 {
-    let (b, c) = (points[i], points[i + 1]);
-    let a = if i > 0 { points[i - 1] } else { b * 2.0 - c };
-    let d = points.get(i + 2).copied().unwrap_or(c * 2.0 - b);
-    // Hermite's cubic with central differences as tangents.
-    let (m0, m1) = ((c - a) * 0.5, (d - b) * 0.5);
-    let (t2, t3) = (t * t, t * t * t);
-    b * (2.0 * t3 - 3.0 * t2 + 1.0)
-        + m0 * (t3 - 2.0 * t2 + t)
-        + c * (3.0 * t2 - 2.0 * t3)
-        + m1 * (t3 - t2)
-}
-
 /// Direction of the axis at the root, and parallel transport along it: chords over `2 half` samples.
 fn transported(positions: &[DVec3], half: f64) -> (DVec3, Vec<DQuat>) {
     let last = (positions.len() - 1) as f64;
@@ -249,7 +306,8 @@ mod tests {
             let (short, long) = (Wisp::new(&of(0.06), 241), Wisp::new(&of(0.12), 481));
             assert!(short.end() > 1.49);
             for s in [0.05, 0.061, 0.07, 0.08, 0.089] {
-                let (a, b) = (short.at(s / 0.06).0, long.at(s / 0.12).0);
+                let (a, b) =
+                    (short.guide(&short.place(s / 0.06)), long.guide(&long.place(s / 0.12)));
                 // The midpoint rule: (h |u|)²/24 of the way beyond the tip, with h = 0.25 mm and |u| = 232/m.
                 assert!(a.distance(b) < 1.5e-4 * 0.03, "{s}: {}", a.distance(b));
             }
@@ -260,16 +318,18 @@ mod tests {
     fn a_curl_winds_about_its_axis_from_the_root_to_the_tip() {
         let rest = equilibrium(&weightless(0.12), &[], &Options::default());
         let wisp = Wisp::new(&rest, 481);
-        let (start, along) = (wisp.centre(0.0).0, wisp.axis(0.0, wisp.centre(0.0)).direction);
+        let root = wisp.place(0.0);
+        let (start, along) = (wisp.axis(&root), wisp.direction(&root));
         for k in 0..=20 {
             let x = f64::from(k) / 20.0 * wisp.end();
-            let (centre, AxisPoint { curl, direction }) =
-                (wisp.centre(x).0, wisp.axis(x, wisp.centre(x)));
+            let place = wisp.place(x);
+            let (centre, direction) = (wisp.axis(&place), wisp.direction(&place));
+            let curl = wisp.guide(&place) - centre;
+            assert!((wisp.turn(&place) * wisp.forward).distance(direction) < 1e-14);
             // Radius of the helix, and a straight axis.
             assert!((curl.length() - 0.004).abs() < 1e-4, "{x}: {}", curl.length());
             assert!(curl.dot(direction).abs() < 2e-4, "{x}: {}", curl.dot(direction));
             assert!((centre - start).cross(along).length() < 2e-4, "{x}");
-            assert!((centre + curl).distance(wisp.at(x).0) < 1e-12);
         }
     }
 }

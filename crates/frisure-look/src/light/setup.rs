@@ -77,7 +77,7 @@ impl Lights {
         let lamps = [
             lamp([-0.55, 0.8, 0.9], Vec3::new(4.6, 4.5, 4.3), KEY),
             lamp([0.9, 0.2, 0.8], Vec3::new(1.5, 1.53, 1.6), SOFTBOX),
-            lamp([0.55, 0.8, -0.8], Vec3::new(2.4, 2.45, 2.55), SOFTBOX),
+            lamp([0.55, 0.8, -0.8], Vec3::new(1.2, 1.23, 1.28), SOFTBOX),
         ];
         let environment = EnvironmentLight::Gradient {
             sky: Vec3::new(0.56, 0.58, 0.62),
@@ -94,9 +94,9 @@ impl Default for Lights {
     }
 }
 
-/// Angular radius of the studio's key light (rad): a softbox of 0.8 m two metres away. A larger one is too faint to be seen in the eyes: 2.5 % of its radiance
-/// is reflected there.
-const KEY: f64 = 0.2;
+/// Angular radius of the studio's key light (rad): a softbox of 1.2 m two metres away. A larger one is too faint to be seen in the eyes: 2.5 % of its radiance
+/// is reflected there. The rim light is a quarter of the key light: a brighter one shows through brown hair as orange patches.
+const KEY: f64 = 0.3;
 
 // Positions, irradiances and sizes of the setups are chosen by eye, after the photographers' setups of these names.
 const SOFT: [Stand; 3] = [

@@ -16,7 +16,7 @@ const MAX_PIXELS: f32 = 16.0;
 /// Greatest length of a piece (m).
 const MAX_LENGTH: f32 = 0.006;
 /// Most pieces for one segment of the input: a guard on time and memory.
-const MAX_PIECES: u32 = 64;
+const MAX_PIECES: u8 = 64;
 /// Strands per parallel job; fixed, so that the work is cut the same way on any machine.
 const CHUNK: usize = 512;
 
@@ -55,29 +55,37 @@ impl Curves {
         let head_hairs = strands.len() - facial_hairs(strands);
         let chunks = strands.len().div_ceil(CHUNK);
         let range = |c: usize| c * CHUNK..((c + 1) * CHUNK).min(strands.len());
-        let counts: Vec<usize> = (0..chunks)
-            .into_par_iter()
-            .map(|c| range(c).map(|i| count(strands.strand(i), view)).sum())
-            .collect();
+        let of_chunk = |c: usize| {
+            let (mut count, mut pieces) = (0, Vec::new());
+            for strand in range(c).map(|i| strands.strand(i)).filter(|s| drawable(*s)) {
+                count += 1 + cut(strand, view, &mut pieces);
+            }
+            (count, pieces)
+        };
+        let cuts: Vec<(usize, Vec<u8>)> = (0..chunks).into_par_iter().map(of_chunk).collect();
 
         // By all threads: half of the time goes into getting the memory.
-        let mut vertices: Vec<_> = rayon::iter::repeat_n(NOWHERE, counts.iter().sum()).collect();
+        let count = cuts.iter().map(|(count, _)| count).sum();
+        let mut vertices: Vec<_> = rayon::iter::repeat_n(NOWHERE, count).collect();
         let mut slices = Vec::with_capacity(chunks);
         let mut rest = vertices.as_mut_slice();
-        for &n in &counts {
-            let (slice, tail) = rest.split_at_mut(n);
-            slices.push(slice);
+        for (count, pieces) in cuts {
+            let (slice, tail) = rest.split_at_mut(count);
+            slices.push((slice, pieces));
             rest = tail;
         }
         let wetness = point_wetness(strands);
-        slices.into_par_iter().enumerate().for_each(|(c, slice)| {
-            let mut out = slice.iter_mut();
+        slices.into_par_iter().enumerate().for_each(|(c, (slice, pieces))| {
+            let (mut out, mut pieces) = (slice.iter_mut(), pieces.into_iter());
             for i in range(c) {
                 let strand = strands.strand(i);
+                if !drawable(strand) {
+                    continue;
+                }
                 let start = strands.offsets()[i] as usize;
                 let wet = wetness.map(|w| &w[start..start + strand.points.len()]);
                 let scale = if i < head_hairs { width_scale } else { 1.0 };
-                fill(strand, wet, i as u32, scale, view, &mut out);
+                fill(strand, wet, i as u32, scale, &mut pieces, &mut out);
             }
         });
         Self { vertices }
@@ -112,16 +120,15 @@ fn drawable(strand: Strand<'_>) -> bool {
         && strand.radii.iter().all(|r| r.is_finite())
 }
 
-/// Number of vertices that [`fill`] writes.
-fn count(strand: Strand<'_>, view: &Projection) -> usize {
-    if !drawable(strand) {
-        return 0;
-    }
-    let mut total = 1;
+/// How many pieces stand for a strand; adds the number for each two of its points to the list.
+fn cut(strand: Strand<'_>, view: &Projection, of_segments: &mut Vec<u8>) -> usize {
+    let mut total = 0;
     let mut before = slope(strand.points, 0);
     for i in 0..strand.points.len() - 1 {
         let after = slope(strand.points, i + 1);
-        total += pieces(strand.points[i], strand.points[i + 1], [before, after], view) as usize;
+        let count = pieces(strand.points[i], strand.points[i + 1], [before, after], view);
+        of_segments.push(count);
+        total += usize::from(count);
         before = after;
     }
     total
@@ -170,7 +177,7 @@ pub fn smooth(
 /// Visits the smooth curve through `points`, of which there are at least two.
 fn trace(
     points: &[Vec3],
-    pieces: impl Fn(Vec3, Vec3, [Vec3; 2]) -> u32,
+    mut pieces: impl FnMut(Vec3, Vec3, [Vec3; 2]) -> u32,
     put: &mut impl FnMut(f32, Vec3, Vec3),
 ) {
     let unit = |slope: Vec3| slope.try_normalize().unwrap_or(Vec3::Z);
@@ -206,7 +213,7 @@ fn reach(chord: f32, ends: [Vec3; 2]) -> f32 {
 }
 
 /// How many straight pieces stand for the curve from `a` to `b` with slopes `ends`.
-fn pieces(a: Vec3, b: Vec3, ends: [Vec3; 2], view: &Projection) -> u32 {
+fn pieces(a: Vec3, b: Vec3, ends: [Vec3; 2], view: &Projection) -> u8 {
     let length = a.distance(b);
     let turn = turn(ends);
     let depth = (a.midpoint(b) - view.eye).dot(view.forward);
@@ -214,24 +221,22 @@ fn pieces(a: Vec3, b: Vec3, ends: [Vec3; 2], view: &Projection) -> u32 {
     // A chord of an arc of length l that turns by t lies l t / 8 off its middle.
     let flat = (pixels * turn / (8.0 * FLATNESS)).sqrt();
     let wanted = flat.max(turn / MAX_TURN).max(pixels / MAX_PIXELS).max(length / MAX_LENGTH);
-    (wanted.ceil() as u32).clamp(1, MAX_PIECES)
+    // The cast saturates.
+    (wanted.ceil() as u8).clamp(1, MAX_PIECES)
 }
 
-/// Writes the vertices of one strand.
+/// Writes the vertices of one strand that can be drawn, with the next numbers of pieces.
 fn fill<'a>(
     strand: Strand<'_>,
     wetness: Option<&[f32]>,
     index: u32,
     width_scale: f32,
-    view: &Projection,
+    pieces: &mut impl Iterator<Item = u8>,
     out: &mut impl Iterator<Item = &'a mut Vertex>,
 ) {
-    if !drawable(strand) {
-        return;
-    }
     let wet = |i: usize| wetness.map_or(0.0, |w| portion(w[i]));
     let (points, radii) = (strand.points, strand.radii);
-    let count = |a: Vec3, b: Vec3, ends: [Vec3; 2]| pieces(a, b, ends, view);
+    let count = |_, _, _: [Vec3; 2]| pieces.next().map_or(1, u32::from);
     trace(points, count, &mut |place, position, tangent| {
         let (radius, wetness) = (along(place, |i| radii[i]), along(place, wet));
         if let Some(vertex) = out.next() {
@@ -244,7 +249,8 @@ fn fill<'a>(
 /// A value between those of the points around a place, which is in points from the root.
 pub(super) fn along(place: f32, value: impl Fn(usize) -> f32) -> f32 {
     // The cast cuts off what is behind the point.
-    let (before, x) = (place as usize, place.fract());
+    let before = place as usize;
+    let x = place - before as f32;
     let from = value(before);
     if x > 0.0 { from + (value(before + 1) - from) * x } else { from }
 }

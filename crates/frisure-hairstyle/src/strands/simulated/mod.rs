@@ -163,9 +163,8 @@ impl<'a> Simulated<'a> {
         drawn.resize_with(roots.len(), || None);
         let mut groups: Vec<Group<'a>> = ELEMENTS.iter().map(|_| Group::default()).collect();
         for (place, (index, root)) in roots.iter().enumerate() {
-            let mut binding = self.population.bind(root, *index);
             // It deviates by its own physics, not by chance.
-            binding.variation = binding.variation.without_deviation();
+            let binding = self.population.bind(root, *index).without_deviation();
             let Some(rod) = fibre::rod(self.population, &binding, *index) else {
                 drawn[place] = Some(self.population.hair(root, *index));
                 continue;
