@@ -96,7 +96,7 @@ pub(crate) fn sentence(blind: &Blind, poses: usize) -> String {
     let names: Vec<&str> = blind.parts.iter().map(|(quantity, _)| quantity.name()).collect();
     let percent = 100.0 * blind.deviation;
     let more = if poses == 1 {
-        "add a second pose (clamped in another direction, upside down, or lying flat without weight)"
+        "add a second pose (with weight, clamped in another direction or upside down; or without weight, lying flat, if this one has weight)"
     } else {
         "add a pose in which gravity bends the fibre in another way"
     };

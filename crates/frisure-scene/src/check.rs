@@ -107,10 +107,13 @@ impl Scene {
         if !(rod.heaviness() <= MAX_HEAVINESS) {
             let (key, span, _) = locate_any(&["hair.fibre", "hair.length"], &self.source);
             let problem = format!(
-                "the hair is too limp to compute: rho S g L^3 / EI is {:.0e}, and may be {MAX_HEAVINESS:.0e}",
+                "the hair is too limp to compute: rho S g L^3 / EI is {:.1e}, and may be {MAX_HEAVINESS:.0e}",
                 rod.heaviness()
             );
-            let hint = "check the units of length, diameter, moduli and density";
+            let longest = rod.length() * (MAX_HEAVINESS / rod.heaviness()).cbrt();
+            let hint = format!(
+                "such hair may be {longest:.2} m long; check the units of length, diameter, moduli and density"
+            );
             return Err(Diagnostic::new(problem).key(key).hint(hint).at(&self.source, span));
         }
         let (resolution, element) = (spec.equilibrium.resolution, spec.equilibrium.element);

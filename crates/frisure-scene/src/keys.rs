@@ -256,12 +256,12 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Points that it goes smoothly through, each as distances on the skin: across, from the middle
         /// to the head's left, and back, behind the forehead's hairline.
         "implantation.partings[].line" => value::<Points>();
-        /// Whorls at the crown about which hair turns as it grows: 1, or 2 as about 5 % of people have
-        /// them. Default 1.
+        /// Whorls at the crown about which hair turns that lies as it grows (`flow = "whorl"`; combed hair has none): 1, or 2 as about 5 % of
+        /// people have them. Default 1.
         "implantation.whorls" => number::<Count>();
-        /// Distance of the whorl from its usual place, to the head's left and back; within 5 cm.
+        /// Distance of the whorl from its usual place, to the head's left and back; within 5 cm. For `flow = "whorl"`.
         "implantation.whorl_offset" => value::<Pair>();
-        /// Which way hair turns about the whorl, seen from outside; of two, the right one. Default
+        /// Which way hair turns about the whorl, seen from outside; of two, the right one. For `flow = "whorl"`. Default
         /// "clockwise", as in most people.
         "implantation.whorl_turn" => value::<OneOf<Keyword<Turn>>>();
         /// Angle to the skin, the same everywhere; {}.
@@ -276,7 +276,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .slider(Panel::Implantation, "Disorder", DEGREES, (0.0, 57.0), 0,
                 "Standard deviation of the direction in which neighbouring wisps leave the scalp.");
         /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face and on its
-        /// side of a parting; {}. Default 1.2.
+        /// side of a parting, where it is not as it grows (`flow = "whorl"`); {}. Default 1.2.
         "implantation.hold" => number::<Ratio>()
             .slider(Panel::Implantation, "Hold", TIMES, (0.0, 3.0), 2,
                 "How well combed hair stays out of the face, in weights of the hair.");
@@ -593,7 +593,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// How large the main lamp is, as the angle from edge to edge under which the head sees it: a larger
         /// one is softer. {}; the studio's is 23 deg, the sun 0.5 deg.
         "light.size" => number::<Angle>().range(0.0, 170.0 * DEG + 1e-9, "between 0 and 170 deg");
-        /// Factor on the strength of all lamps; {}. Default 1.
+        /// Factor on the strength of all lamps, of which an overcast day has none (`sky_strength`); {}. Default 1.
         "light.strength" => number::<Ratio>().range(0.0, 100.0, "between 0 and 100")
             .field(field!(light.strength))
             .slider(Panel::Look, "Lamps", TIMES, (0.0, 4.0), 2, "Factor on the strength of all lamps.");
@@ -613,10 +613,11 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "light.sun_elevation" => number::<Angle>().range(0.0, FRAC_PI_2, "between 0 and 90 deg");
         /// Haze of the daylight: 2 after rain, 3 clear, 6 hazy, 10 dull; {}. Default 3.
         "light.turbidity" => number::<Ratio>().range(1.9, 10.0, "between 1.9 and 10");
-        /// Further lamps, at most 100. Each is far away, or at a place with `distance` or `position`.
+        /// Further lamps, at most 100. Each is far away, or at a place with `distance` or `position`. One of `azimuth`, `elevation`, `distance`
+        /// and `position` is needed.
         "light.lamp[]" => table();
-        /// Where it stands: to the right of the camera, seen from the head; negative is to its left. {},
-        /// default 0.
+        /// Where it stands: to the right of the camera, seen from the head; negative is to its left. {}.
+        /// Default 0.
         "light.lamp[].azimuth" => number::<Angle>().range(-PI, PI, "between -180 and 180 deg");
         /// How far it stands above the horizon; {}. Default 0.
         "light.lamp[].elevation" => number::<Angle>().range(-FRAC_PI_2, FRAC_PI_2, "between -90 and 90 deg");

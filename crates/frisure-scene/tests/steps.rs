@@ -225,7 +225,7 @@ fn faults_name_place_value_range_and_hint() {
         ("cut = {}", 7, "cut", &["does not say where", "below = \"chin\""]),
         ("cut = { below = 'brow' }", 17, "cut.below", &["did you mean \"brows\"?"]),
         ("cut = { below = 4, length = 1 }", 29, "cut.length", &["says again what"]),
-        ("cut = { length = 1, raise = 1 }", 29, "cut.raise", &["says again what"]),
+        ("cut = { length = 1, raise = 1 }", 29, "cut.raise", &["only a level", "take it away"]),
         ("cut = { below = 4, raise = 1 }", 28, "cut.raise", &["only a level"]),
         ("cut = { below = 'eyes', raise = 2 }", 33, "cut.raise", &["between -1 and 1 m"]),
         ("cut = { below = 200 }", 17, "cut.below", &["is 200; it must be within 100 m"]),

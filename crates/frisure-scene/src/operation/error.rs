@@ -57,7 +57,9 @@ pub(crate) fn step_error(
     // A raised level has no keyword.
     let raised = written(&join(&step, "raise")).is_some();
     let below = written(&join(&step, "below")).filter(|_| !raised);
-    let hint = hint(error, chosen, below);
+    let around = ["off_skin", "sphere"].iter().any(|key| written(&join(&step, key)).is_some());
+    let how = if around { "cut farther from the head" } else { "cut lower" };
+    let hint = hint(error, chosen, below, how);
     let key = match error {
         StyleError::NothingSelected | StyleError::NoSuchWisp { .. } => place,
         _ => step,
@@ -68,8 +70,9 @@ pub(crate) fn step_error(
     Diagnostic::new(error.to_string()).key(key).hint(hint).at(source, span)
 }
 
-/// What to try; `chosen` is the value of `where` in the step, `below` that of the height that it cuts at.
-fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String {
+/// What to try; `chosen` is the value of `where` in the step, `below` that of the height that it cuts at, `how` the cut that would leave
+/// hair.
+fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>, how: &str) -> String {
     match error {
         StyleError::NothingSelected => {
             "choose a larger part with `where`, or leave `where` out for all hair".into()
@@ -86,11 +89,11 @@ fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String
                 }
                 Some(one) => format!("{{ all = [{one}, {above}] }}"),
             };
-            format!("cut lower, or leave out what is rooted lower: `where = {rest}`")
+            format!("{how}, or leave out what is rooted lower: `where = {rest}`")
         }
         StyleError::AboveRoot { wisps, .. } => match without(wisps, chosen) {
-            Some(rest) => format!("cut lower, or leave them out: `where = {rest}`"),
-            None => "cut lower, or choose fewer wisps with `where`".into(),
+            Some(rest) => format!("{how}, or leave them out: `where = {rest}`"),
+            None => format!("{how}, or choose fewer wisps with `where`"),
         },
         StyleError::NothingBeforeEar => {
             "choose hair of the sides, the fringe or the top with `where`".into()

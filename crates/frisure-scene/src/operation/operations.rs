@@ -84,8 +84,6 @@ operations! {
                      `gathered`",
                 )),
             },
-            // Only a level is raised: `unless` of `raise` sees the lines that are read before it.
-            Group { keys: &["raise", "plane", "sphere", "off_skin", "length", "gathered"], needed: None },
             Group { keys: &["held", "elevation"], needed: None },
         ],
     } keys {
@@ -95,19 +93,6 @@ operations! {
             set |cut, height| cut.line = CutLine::Below(height),
             get |cut| match cut.line {
                 CutLine::Below(height) => Some(height),
-                _ => None,
-            };
-        /// How much higher than a level of the head; {}. Default 0.
-        raise: Length, in Cut::RAISE,
-            unless |cut| (!matches!(cut.line, CutLine::Below(Height::Above(..)))).then(|| {
-                ValueError::because("only a level of the head is raised")
-                    .hint("write `below = \"brows\"` or another level beside it")
-            }),
-            set |cut, by| if let CutLine::Below(Height::Above(_, above)) = &mut cut.line {
-                *above = by;
-            },
-            get |cut| match cut.line {
-                CutLine::Below(Height::Above(_, by)) if by.to_bits() != 0 => Some(by),
                 _ => None,
             };
         /// A plane through a point; what is on the side that the normal points to falls.
@@ -144,6 +129,23 @@ operations! {
             set |cut, point| cut.line = CutLine::Gathered(point),
             get |cut| match cut.line {
                 CutLine::Gathered(point) => Some(point),
+                _ => None,
+            };
+        // After all lines: `unless` sees those that are read before it.
+        /// How much higher than a level of the head (`below`); {}. Default 0.
+        raise: Length, in Cut::RAISE,
+            unless |cut| (!matches!(cut.line, CutLine::Below(Height::Above(..)))).then(|| {
+                let hint = match cut.line {
+                    CutLine::Below(_) => "write `below = \"brows\"` or another level beside it",
+                    _ => "take it away, or cut below a level: `below = \"brows\"`",
+                };
+                ValueError::because("only a level of the head is raised").hint(hint)
+            }),
+            set |cut, by| if let CutLine::Below(Height::Above(_, above)) = &mut cut.line {
+                *above = by;
+            },
+            get |cut| match cut.line {
+                CutLine::Below(Height::Above(_, by)) if by.to_bits() != 0 => Some(by),
                 _ => None,
             };
         /// How the hair is held meanwhile, unless it is cut to a length or gathered. Default "hanging".
@@ -388,7 +390,12 @@ fn only_where_it_hangs(cut: &Cut) -> Option<ValueError> {
     let free = matches!(cut.line, CutLine::Length(_) | CutLine::Gathered(_));
     (free || cut.held != Held::Hanging).then(|| {
         let problem = "only hair that is cut at a line as it hangs is trimmed until it rests there";
-        ValueError::because(problem).hint("write `held = \"hanging\"`, or take `resting` away")
+        let hint = if free {
+            "take it away"
+        } else {
+            "write `held = \"hanging\"`, or take `resting` away"
+        };
+        ValueError::because(problem).hint(hint)
     })
 }
 

@@ -40,8 +40,9 @@ fn flow(document: &Document<'_>, preset: Flow) -> Result<Flow> {
         None if is_parted => Flow::Parted { offset },
         None => preset,
         Some(_) if parting.is_some() => {
-            let hint = "write `flow = \"parted\"`, or take `parting` away";
-            let problem = "only parted hair has a parting";
+            let hint =
+                "write `flow = \"parted\"`, or `partings = [{ at = \"left\" }]` beside this flow";
+            let problem = "only parted hair has a parting at the place of the flow";
             return Err(document.error("implantation.parting", problem, hint));
         }
         Some(FlowWord::Whorl) => Flow::Whorl,

@@ -109,7 +109,7 @@ fn lamp(document: &Document<'_>, table: &str) -> Result<LampSpec> {
     let has = |key: &str| document.has(&path(key));
     let is_near = has("distance") || has("position");
     if !has("azimuth") && !has("elevation") && !is_near {
-        let hint = "add `azimuth` and `elevation`, or `position`";
+        let hint = "add `azimuth`, `elevation`, `distance` or `position`";
         return Err(document.error(table, format!("`{table}` is nowhere"), hint));
     }
     if has("size") && !is_near {
