@@ -249,3 +249,20 @@ def test_gradients_go_through_lists() -> None:
         rods.settle(length)
     with pytest.raises(frisure.ArgumentTypeError, match="length is no array of numbers"):
         frisure.jax.settle([[0.1], [0.1, 0.2]])
+
+
+def test_lists_with_tensors_in_them_are_checked_as_others_are() -> None:
+    torch = framework("torch")
+    import frisure.torch
+
+    tensor = torch.tensor(0.1, dtype=torch.float64)
+    masked = np.ma.array([9.0, 9.0, 9.0], mask=True)
+    for arguments, words in [
+        ({"length": [tensor, True]}, "bool"),
+        ({"length": [tensor, torch.tensor(0.1 + 5j)]}, "complex"),
+        ({"length": 0.1, "root": [[tensor, 0.0, 0.0], masked]}, "masked"),
+        ({"length": torch.tensor([0.1]).to_sparse()}, "sparse"),
+        ({"length": torch.tensor([0.1], device="meta")}, "meta"),
+    ]:
+        with pytest.raises(frisure.FrisureError, match=words):
+            frisure.torch.settle(**arguments)

@@ -128,3 +128,8 @@ def test_an_exception_of_progress_ends_the_batch_and_wrong_arguments_are_named(
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(ImportError, match=r'pip install "frisure\[data\]"'):
         frisure.batch(BATCH)
+
+
+def test_no_columns_are_refused() -> None:
+    with pytest.raises(frisure.ArgumentError, match="columns is empty"):
+        frisure.batch(BATCH, columns=[])

@@ -149,6 +149,7 @@ def test_no_rods_are_no_error() -> None:
         ({"length": 0.1, "d1": [1, 0, 0]}, ValueError, r"`d1\[0\]`"),
         ({"length": 0.1, "root": [0, np.nan, 0]}, ValueError, r"root\[1\] is nan; it must be finite"),
         ({"length": [0.1, True]}, TypeError, "length has bools in it"),
+        ({"length": [np.array(0.1), np.array(True)]}, TypeError, "length has bools in it"),
         ({"length": 0.1, "natural_strain": np.full((2, 3, 3), np.inf)}, ValueError, r"natural_strain\[0, 0, 0\] is inf"),
         ({"length": 0.1, "natural_strain": [0, np.inf, 0]}, ValueError, r"natural_strain\[1\] is inf"),
         ({"length": [0.1, 0.2], "diameter": [1e-4] * 3}, ValueError, "diameter has 3 values|length has 2"),

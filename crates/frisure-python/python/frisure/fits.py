@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from frisure._check import converted, real, unmasked, whole
+from frisure._check import converted, real, unmasked, whole, without_bools
 from frisure._frisure import check_room, fit_fibres
 from frisure.errors import ArgumentError, ArgumentTypeError
 from frisure.strands import Strands
@@ -339,6 +339,7 @@ def _long_enough(
 
 def _integers(name: str, value: Any, count: int) -> NDArray[np.int64]:
     unmasked(name, value)
+    without_bools(name, value)
     array = np.asarray(value)
     if array.dtype.kind not in "iu":
         raise ArgumentTypeError(f"{name} has the type {array.dtype}; it must have integers")

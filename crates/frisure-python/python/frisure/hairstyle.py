@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from frisure._check import flag, real, whole
+from frisure._check import flag, real, shown, whole
 from frisure._check import path as _path
 from frisure._frisure import Prediction, render, render_png, save_picture
 from frisure.derivatives import HeadDerivatives
@@ -93,7 +93,7 @@ class Hairstyle:
 
     @functools.cached_property
     def guides(self) -> Strands:
-        """The guide hairs, which are solved as rods, with the attributes `id`, `group`, `root_uv`, `axis_ratio`,
+        """The guide hairs, which are solved as rods, with the attributes `id`, `guide`, `group`, `root_uv`, `axis_ratio`,
         `d1` (director, unit vector), `natural_strain` (rad/m), and `wetness` if any is wet."""
         return Strands(self._prediction.guides())
 
@@ -161,8 +161,8 @@ class Hairstyle:
         bring which was scattered twice or more (white paper has about 1): it takes away single bright pixels and
         darkens the picture a little.
         """
-        if quality not in ("preview", "final"):
-            raise ArgumentError(f'quality is {quality!r}; it must be "preview" or "final"')
+        if not isinstance(quality, str) or quality not in ("preview", "final"):
+            raise ArgumentError(f'quality is {shown(quality)}; it must be "preview" or "final"')
         size = [
             None if count is None else whole(name, count, 1, _MOST_PIXELS)
             for name, count in (("width", width), ("height", height))

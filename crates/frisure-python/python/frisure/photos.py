@@ -32,8 +32,8 @@ LEAST_SIDE = 32
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What the photo of a lock tells. Where it does not tell, `reason` says why and the numbers are None. Lengths in metres; each number has
-    its standard deviation under its name with `_sd`, and lies within 1.96 of it with a probability of 95 %.
+    """What the photo of a lock tells. Where it does not tell, `reason` says why and the numbers are None. Lengths in metres; radii and pitches
+    have their standard deviations under their names with `_sd`, and lie within 1.96 of them with a probability of 95 %.
 
     - `reason`: why the lock was not measured, None where it was; `hint`: what to do about that.
     - `apparent_radius`, `apparent_pitch` (m): of the curl as it hangs.

@@ -7,6 +7,7 @@ import functools
 import os
 import re
 import tomllib
+import weakref
 from collections.abc import Iterable, Iterator, Mapping, MutableMapping, MutableSequence
 from pathlib import Path
 from typing import Any, Union, overload
@@ -52,12 +53,14 @@ class Section(MutableMapping[str, Any]):
     `section.length` and `section["length"]` are what the scene says, as it is written: `"28 cm"`. A key that the scene
     leaves out is `None` as an attribute and a `KeyError` as an item; `frisure.Scene.number` tells its value. Setting a
     key checks it at once, `None` removes it, and a dict replaces a table. A list is an `Items`.
+
+    A table of a list that is moved or replaced there keeps what it said, and cannot change the scene any more.
     """
 
-    _scene: Scene
+    _scene: Scene | _Former
     _path: str
 
-    def __init__(self, scene: Scene, path: str) -> None:
+    def __init__(self, scene: Scene | _Former, path: str) -> None:
         object.__setattr__(self, "_scene", scene)
         object.__setattr__(self, "_path", path)
 
@@ -159,13 +162,13 @@ class Section(MutableMapping[str, Any]):
 class Items(MutableSequence[Any]):
     """A list of a scene, such as `scene.region`; it reads and changes the scene.
 
-    Its tables are `Section`s: `scene.region[0].length = "2 cm"`, `scene.step.append({"dry": {}})`.
+    Its tables are `Section`s: `scene.region[0].length = "2 cm"`, `scene.step.append({"dry": {}})`. What is popped is plain: of a table a dict.
     """
 
-    _scene: Scene
+    _scene: Scene | _Former
     _path: str
 
-    def __init__(self, scene: Scene, path: str) -> None:
+    def __init__(self, scene: Scene | _Former, path: str) -> None:
         self._scene = scene
         self._path = path
 
@@ -212,6 +215,25 @@ class Items(MutableSequence[Any]):
         items.insert(index, value)
         self._scene._change([(self._path, items)])
 
+    # Those of `MutableSequence` move one item after the other, and each move changes what the next one reads.
+    def pop(self, index: int = -1) -> Any:
+        """Removes an item, and returns what the scene said: of a table a dict."""
+        try:
+            popped = self.to_list()[index]
+        except IndexError:
+            raise IndexError(f"`{self._path}` has {len(self)} items; there is none with the index {index}") from None
+        del self[index]
+        return popped
+
+    def reverse(self) -> None:
+        self[:] = self.to_list()[::-1]
+
+    def extend(self, values: Iterable[Any]) -> None:
+        self[:] = [*self.to_list(), *values]
+
+    def clear(self) -> None:
+        del self[:]
+
     def __len__(self) -> int:
         return len(self._given())
 
@@ -224,11 +246,15 @@ class Items(MutableSequence[Any]):
         return repr(self.to_list())
 
 
-def _view(scene: Scene, path: str, value: Any) -> Any:
+def _view(scene: Scene | _Former, path: str, value: Any) -> Any:
     """A value of a scene through which the scene is changed, if it has parts."""
-    if isinstance(value, dict):
-        return Section(scene, path)
-    return Items(scene, path) if isinstance(value, list) else value
+    if not isinstance(value, (dict, list)):
+        return value
+    view = Section(scene, path) if isinstance(value, dict) else Items(scene, path)
+    if "[" in path:
+        views, key = scene._views, id(view)
+        views[key] = weakref.ref(view, lambda _: views.pop(key, None))
+    return view
 
 
 def _plain(value: Any) -> Any:
@@ -238,11 +264,49 @@ def _plain(value: Any) -> Any:
     return [_plain(item) for item in value] if isinstance(value, (list, Items)) else value
 
 
-def _own(value: Any) -> Any:
-    """A value for a scene, with copies of what belongs to one; others are not looked into, for they may be deep."""
+_DEEPEST = 16
+"""Levels of lists and tables that are looked into for views of scenes; no scene is as deep."""
+
+
+def _own(value: Any, levels: int = _DEEPEST) -> Any:
+    """A value for a scene, with copies of what belongs to one."""
     if isinstance(value, (Section, Items)):
         return _plain(value)
-    return [_own(item) if isinstance(item, (Section, Items)) else item for item in value] if isinstance(value, list) else value
+    if levels > 0 and isinstance(value, dict):
+        return {key: _own(item, levels - 1) for key, item in value.items()}
+    return [_own(item, levels - 1) for item in value] if levels > 0 and isinstance(value, (list, tuple)) else value
+
+
+def _found(data: Any, path: str) -> Any:
+    """What the tables of a scene say at a path; None if nothing."""
+    found = data
+    # The scene itself has the empty path.
+    for part in _parts(path) if path != "" else []:
+        if isinstance(part, int):
+            found = found[part] if isinstance(found, list) and part < len(found) else None
+        else:
+            found = found.get(part) if isinstance(found, dict) else None
+        if found is None:
+            return None
+    return found
+
+
+_Views = dict[int, "weakref.ref[Any]"]
+"""Views of items of lists, by their identity."""
+
+
+class _Former:
+    """What a scene said, for views of items that have been moved or replaced."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self._data = data
+        self._views: _Views = {}
+
+    def _find(self, path: str) -> Any:
+        return _found(self._data, path)
+
+    def _change(self, changes: list[tuple[str, Any]]) -> None:
+        raise ArgumentError(f"{changes[0][0]!r} is of an item that has been moved or replaced since it was taken; take it from the scene again")
 
 
 class Scene(Section):
@@ -259,6 +323,7 @@ class Scene(Section):
 
     _core: SceneText
     _data: dict[str, Any]
+    _views: _Views
 
     def __init__(
         self, source: SceneSource, /, *, folder: str | os.PathLike[str] | None = None
@@ -268,7 +333,7 @@ class Scene(Section):
         if isinstance(source, Scene):
             core = source._core
         elif isinstance(source, Mapping):
-            core = SceneText.from_mapping(source, within)
+            core = SceneText.from_mapping(_own(source), within)
         elif isinstance(source, str) and "\n" in source:
             core = SceneText.parse(_text("scene", source), "<text>", within, False)
         elif isinstance(source, (str, os.PathLike)):
@@ -298,25 +363,33 @@ class Scene(Section):
         return scene
 
     def _set(self, core: SceneText) -> None:
+        if "_views" not in self.__dict__:
+            self._views = {}
         self._core = core
         self._data = tomllib.loads(core.text)
 
     def _find(self, path: str) -> Any:
         """What the scene says at a path; None if nothing."""
-        found: Any = self._data
-        # The scene itself has the empty path.
-        for part in _parts(path) if path != "" else []:
-            if isinstance(part, int):
-                found = found[part] if isinstance(found, list) and part < len(found) else None
-            else:
-                found = found.get(part) if isinstance(found, dict) else None
-            if found is None:
-                return None
-        return found
+        return _found(self._data, path)
 
     def _change(self, changes: list[tuple[str, Any]]) -> None:
         leaves = [leaf for path, value in changes for leaf in self._leaves(path, _own(value))]
+        before = self._data
         self._set(self._core.with_values(leaves))
+        self._leave_behind(before, [path for path, _ in changes])
+
+    def _leave_behind(self, before: dict[str, Any], lists: list[str]) -> None:
+        """Lets views of items of these lists that are not the same any more keep what the scene said before."""
+        former = _Former(before)
+        for key, reference in list(self._views.items()):
+            view = reference()
+            if view is None:
+                continue
+            within = (path for path in lists if view._path.startswith(f"{path}["))
+            items = (view._path[: view._path.index("]", len(path)) + 1] for path in within)
+            if any(_found(before, item) != self._find(item) for item in items):
+                view._scene = former
+                del self._views[key]
 
     def _leaves(self, path: str, value: Any) -> list[tuple[str, Any]]:
         """The changes that replace what is at a path: of a table that is there, key by key, since it may be written under a heading."""
@@ -350,11 +423,13 @@ class Scene(Section):
         return Path(self._core.folder)
 
     def number(self, key: str) -> float:
-        """The number of a key such as `hair.length`, in SI units (m, rad, Pa, kg/m³), given by the scene or not."""
+        """The number of a key such as `hair.length`, in SI units (m, rad, Pa, kg/m³), given by the scene or not. Items of lists have none."""
         number = self._core.number(_text("key", key, "a text, such as 'hair.length'"))
         if number is None:
             if key in _keys():
                 raise KeyError(f"{key!r} is a key without a number of its own; what the scene says of it is scene[{key!r}]")
+            if re.sub(r"\[\d+\]", "[]", key) in _keys():
+                raise KeyError(f"{key!r} is of an item of a list, which has no numbers here; what the scene says of it is scene[{key!r}]")
             near = difflib.get_close_matches(key, _keys(), 1)
             raise KeyError(f"{key!r} is no key of a scene" + (f"; near it is {near[0]!r}" if near else ""))
         return number
@@ -366,7 +441,7 @@ class Scene(Section):
             raise ArgumentTypeError("give the value of the step or its keys, not both")
         # A trailing underscore lets a key be a word of Python.
         named = {key.removesuffix("_"): item for key, item in keys.items() if item is not None}
-        return Scene._of(self._core.with_step(operation, named if value is None else value))
+        return Scene._of(self._core.with_step(operation, _own(named if value is None else value)))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the text to a file, as a whole or not at all; `FailedError` where it cannot be written."""

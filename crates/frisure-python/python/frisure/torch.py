@@ -17,15 +17,24 @@ from typing import Any
 import torch  # type: ignore[import-not-found, unused-ignore]
 
 from frisure import _autodiff, rods
+from frisure._check import array as _array
 from frisure.errors import ArgumentError, ArgumentTypeError
 
 __all__ = ["settle", "settle_with_energy"]
 
 
-def _numpy(name: str, tensor: torch.Tensor) -> Any:
-    """A real tensor as an array; a complex one would lose its imaginary part."""
+def _check_real(name: str, tensor: torch.Tensor) -> None:
+    """Refuses what has no real numbers; a complex tensor would lose its imaginary part."""
     if tensor.is_complex() or tensor.dtype == torch.bool:
         raise ArgumentTypeError(f"{name} has the dtype {tensor.dtype}; it must be real numbers in SI units")
+    if tensor.layout != torch.strided or tensor.is_meta:
+        kind = "meta" if tensor.is_meta else str(tensor.layout)
+        raise ArgumentTypeError(f"{name} is a tensor of the kind {kind}; it must have its numbers in memory, as `to_dense()` makes them")
+
+
+def _numpy(name: str, tensor: torch.Tensor) -> Any:
+    """A real tensor as an array."""
+    _check_real(name, tensor)
     given = tensor.detach().cpu()
     # NumPy has no bfloat16.
     return (given.double() if given.is_floating_point() else given).numpy()
@@ -38,6 +47,9 @@ def _joined(name: str, value: Any) -> Any:
     parts = [_joined(name, part) for part in value]
     if not any(isinstance(part, torch.Tensor) for part in parts):
         return value
+    for part in parts:
+        # Stacking would take bools for numbers, and drop imaginary parts and masks.
+        _check_real(name, part) if isinstance(part, torch.Tensor) else _array(name, part)
     try:
         return torch.stack([torch.as_tensor(part, dtype=torch.float64) for part in parts])
     except (RuntimeError, ValueError, TypeError) as error:
