@@ -193,7 +193,9 @@ impl Population<'_> {
             point = point.lerp(to.line.at(drifted), to.share(along, gathered, 1.0));
         }
         if let Some(to) = &binding.lock {
-            let width = drawn_in * self.narrowing(binding.main(), x, along, gathered);
+            let main = binding.main();
+            let at = self.wisps[main].place(x);
+            let width = drawn_in * self.narrowing(main, &at, along, gathered);
             let share = to.share(along, gathered, width);
             point = point.lerp(to.line.at(drifted), share);
             free -= share;
@@ -287,7 +289,9 @@ impl Population<'_> {
                 let mut p = self.between(position, &followed, &winding, &place);
                 let mut free = 1.0;
                 if let Some(to) = larger {
-                    let width = self.narrowing(followed[0].0, x, along, place.gathered);
+                    let nearest = followed[0].0;
+                    let at = self.wisps[nearest].place(x);
+                    let width = self.narrowing(nearest, &at, along, place.gathered);
                     let share = to.share(along, place.gathered, width);
                     p = p.lerp(to.line.at(x), share);
                     if to.wet.is_some() {
@@ -320,8 +324,7 @@ impl Population<'_> {
             let wisp = &self.wisps[g];
             let at = wisp.place(x);
             let axis = wisp.axis(&at);
-            let across =
-                (root - self.roots[g]) * (width * self.narrowing_at(g, &at, along, gathered));
+            let across = (root - self.roots[g]) * (width * self.narrowing(g, &at, along, gathered));
             centre += (axis + wisp.turned(&at, across)) * weight;
             if g == main {
                 of_main = Some((at, axis));
@@ -342,12 +345,8 @@ impl Population<'_> {
         centre + winding.turned(wisp.guide(&at) - axis, wisp.direction(&at), departed)
     }
 
-    /// Width of a wisp at `x` of its guide's length and the arc length `s` (m) of a hair, as a fraction of its patch of skin.
-    fn narrowing(&self, guide: usize, x: f64, s: f64, gathered: f64) -> f64 {
-        self.narrowing_at(guide, &self.wisps[guide].place(x), s, gathered)
-    }
-
-    fn narrowing_at(&self, guide: usize, at: &Place, s: f64, gathered: f64) -> f64 {
+    /// Width of a wisp at a place of it and the arc length `s` (m) of a hair, as a fraction of its patch of skin.
+    fn narrowing(&self, guide: usize, at: &Place, s: f64, gathered: f64) -> f64 {
         let packed = &self.packed[guide][at.station..at.station + 2];
         let packed = packed[0] + (packed[1] - packed[0]) * at.part;
         // n from 1, the patch of skin, by the share `clumping` to the packed radius over that of the patch.
